@@ -147,6 +147,13 @@ def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarra
     return np.round(interval * np.arange(first, last + 1), 9)
 
 
+def down_to(end: float | None, depths: np.ndarray) -> np.ndarray:
+    """Return the depths [n] above an end, and the end; all where there is none."""
+    if end is None or end >= depths[-1]:
+        return depths
+    return np.append(depths[depths < 0.999 * end], end)
+
+
 def round_depths(position: np.ndarray) -> np.ndarray:
     """Return each meter that a curve passes, or finer steps of a short one; none of
     a curve that stays where it is."""
@@ -194,7 +201,7 @@ def largest_energy_ratio(history: Table) -> float:
         used = (force < 0) & (work > work.max() / 10)
     if not used.any():
         return float("nan")
-    return float((history["kinetic_energy_J"][used] / work[used]).max())
+    return float((history["kinetic_energy_J"][used] / work[used]).max(initial=0.0))
 
 
 def gradient_share(history: Table) -> np.ndarray:

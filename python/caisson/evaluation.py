@@ -6,6 +6,7 @@ All of them follow from history.csv. They are means of curves.smoothed_at(), exc
 largest pull: that is the largest median over neighboring rows of a way up.
 """
 import functools
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -82,10 +83,19 @@ def way_of(run: Results, rows: np.ndarray) -> Way:
     columns = {name: history[name][rows] for name in COLUMNS if name in history}
     depth = history[DEPTH][rows]
     if SUCTION in history:
-        columns[GRADIENT] = curves.gradient_share(history)[rows]
+        if "critical_gradient" in history:  # not in clay
+            columns[GRADIENT] = curves.gradient_share(history)[rows]
         if length := run.scene.get("skirt_length_m"):
             columns[ROOM] = float(length) - depth - columns[HEAVE]
     return Way(depth, columns)
+
+
+def feasible(run: Results, way: Way) -> Way:
+    """Return a way down to where suction ends, as the verdict in run.json has it."""
+    rows = way.depth <= (run.feasible_to or np.inf)
+    if rows.sum() < 2:
+        return way
+    return Way(way.depth[rows], {k: x[rows] for k, x in way.columns.items()})
 
 
 def way_down(run: Results) -> Way:
@@ -93,12 +103,13 @@ def way_down(run: Results) -> Way:
     return way_of(run, curves.way_down(run.history[DEPTH])[1:])
 
 
-def at_depths(run: Results) -> Table:
-    """Return the numbers of the way down at each half meter and at the end, with the
-    bounds of those that have an error bar: columns [n]; empty without a way down."""
+def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
+    """Return the numbers of the way down at depths (m), or at each half meter and at
+    the end, with the bounds of those that have an error bar: columns [n]; empty without
+    a way down."""
     if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
         return {}
-    at = depths_of(way.depth)
+    at = depths_of(way.depth) if at is None else at
     means = {name: way.mean(name, at) for name in way.columns}
     return {DEPTH: at, **means, **error_bounds.at_depths(run, at, means)}
 
@@ -136,7 +147,9 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
         most, depth = way.largest(ratio)
         return {"least": 1 - most, DEPTH: depth}
 
-    found: dict[str, Any] = {"piping": margin(way.columns[GRADIENT])}
+    found: dict[str, Any] = {}
+    if GRADIENT in way.columns:
+        found["piping"] = margin(way.columns[GRADIENT])
     if (boils := way.columns.get(BOILING)) is not None:
         share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
         found["boiling"] = margin(share)
@@ -148,7 +161,8 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
 
 
 def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
-    """Return the results of a way down."""
+    """Return the results of a way down; maxima and margins of what is feasible."""
+    deepest, way = float(way.depth[-1]), feasible(run, way)
 
     def largest(name: str) -> dict[str, float]:
         most, depth = way.largest(way.columns[name])
@@ -156,7 +170,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
 
     total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
     found: dict[str, Any] = {
-        DEPTH: float(way.depth[-1]),
+        DEPTH: deepest,
         "largest_force": largest(total),
     }
     if SUCTION in way.columns:
@@ -285,27 +299,6 @@ def largest_pull(history: Table) -> dict[str, Any]:
     return found
 
 
-def capacity_in_words(pull: dict[str, Any]) -> str:
+def capacity_in_words(pull: Mapping[str, Any]) -> str:
     """Return whether the largest pull is the capacity."""
     return "the capacity" if pull["is_capacity"] else NO_CAPACITY
-
-
-def lines_of(run: Results) -> list[str]:
-    """Return the largest force, the largest pull and the penetration by weight in
-    words."""
-    found, shown = results_of(run), run.shown
-    lines = []
-
-    def words(force: float, depth: float) -> str:
-        return f"{shown.words(force / 1e3, 'kN', '.4g')} at {shown.depth(depth)}"
-
-    if force := found.get("largest_force"):
-        (name, value), *_ = force.items()
-        water = ", with water," if name == curves.WITH_WATER else ""
-        lines.append(f"largest force{water} {words(value, force[DEPTH])}")
-    if pull := found.get("largest_pull"):
-        line = f"largest pull {words(pull['pull_N'], pull[DEPTH])}"
-        lines.append(f"{line}: {pull.get('mechanism') or capacity_in_words(pull)}")
-    if (rest := found.get("rest_penetration_m")) is not None:
-        lines.append(f"rests by weight at {shown.depth(rest)}")
-    return lines

@@ -165,6 +165,12 @@ class Results:
         return self.summary.get("scene") or {}
 
     @property
+    def feasible_to(self) -> float | None:
+        """The depth where suction ends (m), by the verdict in run.json; None without
+        one, or where suction does not end."""
+        return self.summary.get("feasible_to_m") if self.scene else None
+
+    @property
     def shown(self) -> Units:
         """The units in which pages and pictures show forces, stresses and lengths."""
         return units_of(self.history, self.scene)

@@ -49,6 +49,19 @@ class Units:
         value = round(self.factor("m") * float(meters), digits) + 0.0  # no -0.00
         return f"{value:.{digits}f} {self.name('m')}"
 
+    def place(self, meters: float, digits: int = 2) -> str:
+        """Return a depth in words without zeros at its end: "4.5 m", "45 mm"."""
+        fewer = round(
+            self.factor("m") * float(meters), digits - 1 * ("m" in self.smaller)
+        )
+        return f"{fewer:g} {self.name('m')}"
+
+    def force(self, kilonewtons: float) -> str:
+        """Return a force in words, with three digits, also in MN: "6.5 MN"."""
+        if "kN" not in self.smaller and abs(kilonewtons) >= 1e3:
+            return f"{kilonewtons / 1e3:.3g} MN"
+        return self.words(float(f"{kilonewtons:.3g}"), "kN", "g")
+
     def length(self, meters: float) -> str:
         """Return a length in words, with the digits that it has: "0.5 m"."""
         return self.words(meters, "m", ".6g")

@@ -8,6 +8,7 @@ from synthetic import write_run
 from test_report import SUMMARY, WithPage
 
 import caisson.report as report
+from caisson import curves
 from caisson.results import Results
 from caisson.report import content, pull
 
@@ -44,10 +45,10 @@ class Pulled(WithPage):
         """The page begins with the pull and what fails, and draws no installation."""
         run = self.leave_pull(sealed=True)
         cards = {name: (value, remark) for name, value, remark in pull.cards_of(run)}
-        self.assertEqual(cards["Largest pull"][0], "900 kN")
-        self.assertIn("after a rise of 50 mm", cards["Largest pull"][1])
+        self.assertEqual(cards["Of which friction outside"][0], "200 kN")
         self.assertEqual(cards["Of which water beneath lid and tip"][0], "600 kN")
-        self.assertEqual(cards["What fails"][0], "reverse bearing")
+        said = pull.sentence_of(run)
+        self.assertIn("900 kN after a rise of 50 mm (reverse bearing: ", said)
         (figure,) = content.figures_of(run, None)
         ends = {c["label"]: (c["x"][-1], c["y"][-1]) for c in figure["curves"]}
         self.assertEqual(ends["pull"], (900, 100))
@@ -64,15 +65,36 @@ class Pulled(WithPage):
     def test_no_capacity(self) -> None:
         """A load that the caisson holds is no capacity."""
         run = self.leave_pull(sealed=True, rise=0.1)
-        name, value, remark = pull.cards_of(run)[-1]
-        self.assertEqual((name, value), ("Capacity", "more than 900 kN"))
-        self.assertIn("not the capacity", remark)
+        said = pull.sentence_of(run)
+        self.assertTrue(
+            said.startswith("Pulled from 2 m: 900 kN after a rise of 100 mm")
+        )
+        self.assertIn(
+            "not the capacity). The submerged weight of 1 MN adds to it", said
+        )
+        self.assertIn("This is no design pull-out capacity.", said)
 
     def test_open_lid(self) -> None:
         """Drained there is no water, and no mechanism beyond friction."""
         run = self.leave_pull(sealed=False)
         names = [name for name, _, _ in pull.cards_of(run)]
-        self.assertEqual(names, ["Largest pull", "Of which friction outside"])
+        self.assertEqual(names, ["Of which friction outside"])
+
+    def test_begins_where_it_is_pulled(self) -> None:
+        """Behind the unloading of 1000 kN, over the first 20 mm; and no kinetic energy
+        is negative."""
+        run = self.leave_pull(sealed=False)
+        history = dict(run.history)
+        rise = 2 - history["penetration_m"]
+        history["total_force_N"] = 1e6 - 5e7 * np.minimum(rise, 0.026)
+        history["kinetic_energy_J"] = np.full(len(rise), -1.0)
+        write_run(self.path, history, dict(run.summary))
+        run = Results(self.path)
+        self.assertEqual(curves.largest_energy_ratio(run.history), 0)
+        (figure,) = content.figures_of(run, None)
+        pulled = [c for c in figure["curves"] if c["label"] == "pull"][0]
+        self.assertAlmostEqual(pulled["x"][0], 0, delta=101)
+        self.assertAlmostEqual(pulled["y"][0], 20, delta=2.1)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curve, plot, table, units
-from caisson.plot import forces
+from caisson.plot import fields, forces
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import boundary_now, chosen, tops_of, window_of
 from caisson.plot.walls import draw as draw_walls
@@ -189,10 +189,16 @@ class Pictures(Directory):
             return [time for time, _ in chosen(series, history, wanted)]
 
         self.assertEqual(depths([0, 2, 10]), [0, 2, 10])
-        self.assertEqual(depths([0, 2, 7]), [0, 2, 7, 10], "the last state")
-        self.assertEqual(depths([]), [0, 3, 7, 10])
-        self.assertEqual(depths([0, 2, 17]), [0, 3, 7, 10], "not reached")
-        self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 3, 7, 10], "too many")
+        self.assertEqual(depths([2, 7]), [2, 7, 10], "the last state")
+        self.assertEqual(depths([]), [0, 5, 10])
+        self.assertEqual(depths([0, 2, 17]), [0, 5, 10], "not reached")
+        self.assertEqual(depths([0, 1, 2, 3, 4]), [0, 5, 10], "too many")
+
+    def test_undisturbed_ground_is_not_drawn(self) -> None:
+        """Of the three frames of the run the last two."""
+        labels = [frame.label for frame in fields.frames_of(Results(TINY))]
+        self.assertEqual(len(Results(TINY).frames()), 3)
+        self.assertEqual(len(labels), 2)
 
     def test_window_about_a_slender_body(self) -> None:
         """A cone stands in soil as wide as the picture needs; a caisson has its
@@ -229,7 +235,22 @@ class Pictures(Directory):
         means = CellMeans(middles, volume, cells, np.zeros(7, dtype=bool))
         tops = means.polygons[:, 2:, 1].mean(axis=1)
         self.assertEqual(list(tops[:5]), list(cells[:5, 2, 1]), "not at the surface")
-        self.assertTrue(np.allclose(tops[5:], [2.8, 1.8]), "at the surface")
+        expected = [[2.3, 2.8], [1.8, 2.3]]  # 2.8 and 1.8, which meet
+        found = means.polygons[5:, 2:, 1]
+        self.assertTrue(np.allclose(found, expected), "at the surface")
+
+    def test_between_the_means_of_cells(self) -> None:
+        """A corner has the mean of the cells that meet there and have a value."""
+        cells = np.array(
+            [[[r, 0], [r + 1, 0], [r + 1, 1], [r, 1]] for r in (0, 1, 2, 3)], float
+        )
+        middles = cells.mean(axis=1)
+        volume = 2 * np.pi * middles[:, 0]
+        means = CellMeans(middles, volume, cells, np.zeros(4, dtype=bool))
+        found = means.at_corners(np.array([1.0, 3.0, np.nan, np.nan]))
+        np.testing.assert_allclose(found[0], [1, 2, 2, 1])
+        np.testing.assert_allclose(found[1], [2, 3, 3, 2])
+        np.testing.assert_allclose(found[2], [3, np.nan, np.nan, 3])
 
     def test_boundaries_between_layers(self) -> None:
         """They move with the points beside them, not with the cells, and are unknown
@@ -245,15 +266,15 @@ class Pictures(Directory):
         self.assertEqual(tops_of({"layers": layers}), [-3.0])
 
     def test_walls(self) -> None:
-        """At most four times, the last among them; no picture without a wall."""
+        """At most three times, the last among them; no picture without a wall."""
         walls = Results(TINY).walls
         self.assertEqual(walls["time_s"].max(), shown_times(walls)[-1])
         time = np.repeat(np.arange(9.0), 5)
         table = {"time_s": time, "penetration_m": 0.5 * time}
-        self.assertEqual(shown_times(table).tolist(), [0, 3, 5, 8])
+        self.assertEqual(shown_times(table).tolist(), [0, 4, 8])
         wanted = [0.01, 2.5, 4.0]  # as of the pictures of fields
         self.assertEqual(shown_times(table, wanted).tolist(), [0, 5, 8])
-        self.assertEqual(shown_times(table, [9.0]).tolist(), [0, 3, 5, 8])
+        self.assertEqual(shown_times(table, [9.0]).tolist(), [0, 4, 8])
         self.assertIsNone(draw_walls(self.path / "walls.png", Results(self.path)))
 
     def test_means_pass_over_what_is_unknown(self) -> None:

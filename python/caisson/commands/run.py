@@ -31,8 +31,7 @@ from caisson.runner import (
 )
 
 PACKAGES = Path(__file__).parents[2]
-RENEWAL = 30.0  # s, in which the report of a run is renewed
-SHARE = 20.0  # of that time to the time that it takes, at least
+RENEWAL = 20.0  # s, in which the report of a run is renewed, if there is a new row
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -106,37 +105,42 @@ def options_for_error(
 
 
 def draw(directory: Path, error_bar: Path | None) -> None:
-    """Say what came out, draw the pictures and write the report; the results do not
+    """Draw the pictures, write the report and say whether it works; the results do not
     need them. error_bar: of the run, None for that beside the scene."""
-    from caisson import error_bounds, evaluation, plot, report
+    from caisson import error_bounds, plot, report
+    from caisson.report import verdict
     from caisson.results import Results
 
     error_bounds.adopt(directory, error_bar)
-    for line in evaluation.lines_of(Results(directory)):
-        print(f"run: {line}")
+    run = Results(directory)
+    verdict.keep(run)
     for picture in plot.draw(directory):
         print(f"plot: {picture}")
     print(f"report: {report.write(directory)}")
+    for line in verdict.lines_of(run):
+        print(line)
 
 
 @contextlib.contextmanager
 def reporting(directory: Path | None) -> Iterator[None]:
-    """Renew the report of a run from time to time as long as it runs, with at most a
-    small part of a core."""
+    """Renew the report of a run from time to time as long as it runs and has more to
+    show."""
     ended = threading.Event()
 
     def renew() -> None:
-        wait = RENEWAL
+        size, wait = -1, RENEWAL
         while directory is not None and not ended.wait(wait):
-            begin = time.monotonic()
-            python = ["nice", sys.executable, "-m", "caisson"]
-            subprocess.run(
-                [*python, "report", str(directory)],
-                env={**os.environ, "PYTHONPATH": str(PACKAGES)},
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-            wait = max(RENEWAL, SHARE * (time.monotonic() - begin))
+            begin, history = time.monotonic(), directory / "history.csv"
+            before, size = size, history.stat().st_size if history.is_file() else -1
+            if size != before:
+                python = ["nice", sys.executable, "-m", "caisson"]
+                subprocess.run(
+                    [*python, "report", str(directory)],
+                    env={**os.environ, "PYTHONPATH": str(PACKAGES)},
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                )
+            wait = max(RENEWAL - (time.monotonic() - begin), RENEWAL / 20)
 
     thread = threading.Thread(target=renew, daemon=True)
     thread.start()

@@ -157,8 +157,8 @@ def mesh_for(
         if search.left < (cost := search.cost(r)):
             more = in_units(budget - search.left + cost)
             raise StudyError(
-                f"the next mesh takes about {duration(cost)} on one core, which is more"
-                f" than what is left{reached}. Set --budget {more}: runs that are"
+                f"the error bar needs {more} on one core; the budget is"
+                f" {duration(budget)}{reached}. Set --budget {more}: runs that are"
                 " complete are not repeated"
             )
         search.add_mesh(r)

@@ -10,6 +10,9 @@ from caisson.design import assumed, cone_options
 from caisson.disk import InputError
 
 
+SMALL = 9  # pt, of all texts of pictures that are as wide as a page
+
+
 def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
@@ -18,12 +21,19 @@ def draw(directory: Path) -> list[Path]:
     and, where the soil changes its volume, void_ratio.png, and with excess pore
     pressure pore_pressure.png. Raises ResultsError.
     """
-    from caisson.plot import design, fields, forces, pore_pressure, suction, walls
+    from matplotlib import rc_context
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     error_bounds.adopt(directory)
-    run = Results(directory)
+    with rc_context({"font.size": SMALL, "axes.titlesize": SMALL}):
+        return _drawn(directory, Results(directory))
+
+
+def _drawn(directory: Path, run: Results) -> list[Path]:
+    """Write the pictures of a run; return their paths."""
+    from caisson.plot import design, fields, forces, pore_pressure, suction, walls
+
     pictures = [forces.draw(directory / "forces.png", run)]
     pictures += suction.draw(directory, run)
     pictures.append(design.write(directory / "design.csv", run))

@@ -4,8 +4,9 @@
 The sides of all cells are vertical, and the cells between two neighboring lines lie
 on top of each other, so that a count of the cell bottoms below a point gives its
 cell; cells that are halved have more lines beside them. A picture paints each cell
-with the mean of its points; where the soil ends in a cell, the cell is cut to the
-part that its points fill.
+with the mean of its points, or with values between the means of neighbors; where the
+soil ends in a cell, the cell is cut to the part that its points fill, and neighbors
+meet at the mean of their heights.
 """
 import numpy as np
 
@@ -90,16 +91,45 @@ class CellMeans:
     ) -> np.ndarray:
         """Lower the top of cells with soil that have only void above."""
         result = corners.copy()
-        partly = np.flatnonzero((self.total > 0) & (fill < 1))
-        middles = corners[partly].mean(axis=1)
-        tops = corners[partly, 2:].mean(axis=1)
-        for i, above in zip(partly, cell_of(tops + 1e-3 * (tops - middles), corners)):
-            if above == i or not (rigid[above] or self.total[above] > 0):
-                for top, bottom in ((3, 0), (2, 1)):
-                    result[i, top] = corners[i, bottom] + fill[i] * (
-                        corners[i, top] - corners[i, bottom]
-                    )
+        soil = np.flatnonzero(self.total > 0)
+        middles, tops = corners[soil].mean(axis=1), corners[soil, 2:].mean(axis=1)
+        above = cell_of(tops + 1e-3 * (tops - middles), corners)
+        is_open = (above == soil) | ~(rigid[above] | (self.total[above] > 0))
+        ends = soil[is_open]
+        for top, bottom in ((3, 0), (2, 1)):
+            low, high = corners[ends, bottom], corners[ends, top]
+            share = np.minimum(fill[ends], 1.0)[:, None]
+            result[ends, top] = low + share * (high - low)
+        return self._meeting(result, corners, ends)
+
+    @staticmethod
+    def _meeting(
+        result: np.ndarray, corners: np.ndarray, ends: np.ndarray
+    ) -> np.ndarray:
+        """Let the tops of cells at the surface meet where neighbors have a side in
+        common that is not much higher at one of them. ends: those cells [n]."""
+        height = corners[ends, 3, 1] - corners[ends, 0, 1]
+        by_left = {round(float(corners[i, 0, 0]), 6): k for k, i in enumerate(ends)}
+        for k, i in enumerate(ends):
+            beside = by_left.get(round(float(corners[i, 1, 0]), 6))
+            if beside is None:
+                continue
+            j = ends[beside]
+            left, right = result[i, 2, 1], result[j, 3, 1]
+            if abs(left - right) <= 2 * max(height[k], height[beside]):
+                result[i, 2, 1] = result[j, 3, 1] = (left + right) / 2
         return result
+
+    def at_corners(self, means: np.ndarray) -> np.ndarray:
+        """Return a field at the corners of the polygons [n_used, 4]: the mean of the
+        cells [n_used] that meet there and have a value."""
+        corner = np.round(self.polygons.reshape(-1, 2), 6)
+        node = np.unique(corner, axis=0, return_inverse=True)[1].ravel()
+        known = np.repeat(np.isfinite(means), 4)
+        sums = np.bincount(node, np.where(known, np.repeat(means, 4), 0))
+        count = np.bincount(node, known)
+        found = np.divide(sums, count, out=np.full(len(sums), np.nan), where=count > 0)
+        return found[node].reshape(-1, 4)
 
     def of(self, values: np.ndarray) -> np.ndarray:
         """Return the means of a field [n_points] over the polygons, by volume. Points

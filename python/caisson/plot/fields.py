@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, PolyCollection
-from matplotlib.colors import LogNorm
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
+from matplotlib.tri import Triangulation
 
 from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
@@ -25,9 +27,10 @@ Style = dict[str, Any]
 Sides = tuple[int, ...]  # of the axis: -1 left, 1 right
 Field = tuple[str, Sequence[np.ndarray], Style]  # label, means [frame][cell], colors
 
-MOST_FRAMES = 4  # of a picture
+MOST_FRAMES = 3  # of a picture
+PAGE = 7.2  # inches, the width of a picture: that of a page, so that 9 pt are 9 pt
 SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
-RIGID = "#8c8c8c"
+RIGID, NO_VALUE = "#8c8c8c", "0.88"
 CLOSEST, CLOSE = 6, 1.0  # points that show a boundary, and how close one must be (m)
 NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
 RATIO = "vertical_stress_over_stress_at_rest"
@@ -60,9 +63,12 @@ class Frame:
         self.ratio = cells[RATIO][self.means.used].astype(float)
         self.tops = tops_of(run.scene)
         self.time, self.shown = time, run.shown
-        self.label = f"t = {time:.3g} s"
+        self.label, self.mark = f"t = {time:.3g} s", ""
         if penetration(history) is not None:
-            self.label = f"penetration {self.shown.depth(depth_at(time, history))}"
+            depth = depth_at(time, history)
+            self.label = f"penetration {self.shown.depth(depth)}"
+            if (end := run.feasible_to) is not None and depth > end:
+                self.mark = "not feasible"
 
 
 def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
@@ -107,26 +113,42 @@ def inside(frame: Frame, window: Window) -> np.ndarray:
     return (lower[:, 0] < radius) & (upper[:, 1] > bottom) & (lower[:, 1] < top)
 
 
-def paint_cells(
-    axes: Axes,
-    polygons: np.ndarray,
-    values: np.ndarray,
-    style: Style,
-    sides: Sides = (1, -1),
-) -> PolyCollection:
-    """Draw cells [n, 4, 2] in the color of their values, on both sides of the axis."""
-    painted = PolyCollection(
-        np.concatenate([polygons * [side, 1] for side in sides]),
-        array=np.tile(values, len(sides)),
-        cmap=style["cmap"],
-        norm=style.get("norm"),
-        edgecolors="face",
-        linewidths=0.4,
+def paint_smoothly(
+    axes: Axes, frame: Frame, values: np.ndarray, style: Style, sides: Sides = (1, -1)
+) -> ScalarMappable:
+    """Draw a field between the means of the cells [n], on both sides of the axis; gray
+    where the soil has no value."""
+    polygons = frame.means.polygons
+    axes.add_collection(
+        PolyCollection(
+            np.concatenate([polygons * [side, 1] for side in sides]),
+            facecolors=NO_VALUE,
+            edgecolors=NO_VALUE,
+            linewidths=0.4,
+        )
     )
-    if "norm" not in style:
-        painted.set_clim(style["vmin"], style["vmax"])
-    axes.add_collection(painted)
-    return painted
+    known, cmap = np.isfinite(values), style["cmap"]
+    norm = style.get("norm") or Normalize(style["vmin"], style["vmax"])
+    if not known.any():
+        return ScalarMappable(norm, cmap)
+    at_corners = frame.means.at_corners(values)[known]
+    corners, n = polygons[known], int(known.sum())
+    place = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
+    number = 5 * np.arange(n)[:, None]  # of the first corner; the middle is the fifth
+    triangles = np.concatenate([number + [k, (k + 1) % 4, 4] for k in range(4)])
+    field = np.column_stack([at_corners, values[known]]).ravel()
+    place = place.reshape(-1, 2)
+    return axes.tripcolor(
+        Triangulation(
+            np.concatenate([side * place[:, 0] for side in sides]),
+            np.concatenate([place[:, 1] for _ in sides]),
+            np.concatenate([triangles + i * len(place) for i in range(len(sides))]),
+        ),
+        np.tile(field, len(sides)),
+        shading="gouraud",
+        cmap=cmap,
+        norm=norm,
+    )
 
 
 def tops_of(scene: dict[str, Any]) -> list[float]:
@@ -206,7 +228,7 @@ def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
     if 4 * radius < top - bottom:  # no room for more labels
         axes.set_xticks([0, radius])
     axes.set_xlabel("r (m)")
-    axes.set_title(frame.label, fontsize=10)
+    axes.set_title("\n".join(filter(None, (frame.label, frame.mark))))
 
 
 def nice_above(value: float) -> float:
@@ -219,20 +241,33 @@ def nice_above(value: float) -> float:
     return next(s * power for s in steps if s * power >= value * (1 - 1e-9))
 
 
-def panels(n: int, window: Window) -> tuple[Figure, np.ndarray]:
-    """Return a figure of n panels with the shape of the window, in pairs."""
-    columns = min(n, 2)
-    rows = -(-n // columns)
-    height = 4.4 * (window[2] - window[1]) / (2 * window[0])
-    height = min(max(height, 2.6 / rows), 7)
-    figure = Figure(
-        figsize=(4.7 * columns + 1.2, (height + 0.4) * rows + 1.3),
-        constrained_layout=True,
-    )
-    axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    for panel in axes.flat[n:]:
-        panel.set_visible(False)
-    return figure, axes
+def panels(
+    n: int, window: Window, bars: int, note: float
+) -> tuple[Figure, np.ndarray, list[Axes]]:
+    """Return a figure of n panels beside each other with the shape of the window, as
+    wide as a page or narrower, and the places of color bars below them. note: the
+    height of a text below these (inches)."""
+    left, gap, above, foot = 0.55, 0.2, 0.45, note + 1.25  # inches
+    width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, 3.6)
+    height = width * (window[2] - window[1]) / (2 * window[0])
+    height = min(max(height, 1.2), 5.0)
+    across, high = left + n * (width + gap) - gap + 0.1, foot + height + above
+    figure = Figure(figsize=(across, high))
+
+    def place(x: float, y: float, w: float, h: float, **more: Any) -> Axes:
+        rectangle = (x / across, y / high, w / across, h / high)
+        return figure.add_axes(rectangle, **more)
+
+    axes: list[Axes] = []
+    for i in range(n):
+        shared = {"sharex": axes[0], "sharey": axes[0]} if axes else {}
+        axes.append(place(left + i * (width + gap), foot, width, height, **shared))
+        axes[i].tick_params(labelleft=i == 0)
+    side = (across - left) / bars
+    places = [
+        place(left / 2 + i * side, note + 0.67, side - 0.3, 0.13) for i in range(bars)
+    ]
+    return figure, np.array([axes]), places
 
 
 def shown_values(
@@ -262,26 +297,27 @@ def ratio_of(label: str, frames: Sequence[Frame]) -> Field:
 
 
 def figure_of(
-    frames: Sequence[Frame], window: Window, fields: Sequence[Field]
+    frames: Sequence[Frame], window: Window, fields: Sequence[Field], note: float = 0.0
 ) -> tuple[Figure, np.ndarray]:
     """Return a figure with a panel for each frame and the color bars below: of one
     field, or of the fields of the left and the right halves."""
-    figure, axes = panels(len(frames), window)
+    figure, axes, places = panels(len(frames), window, len(fields), note)
     both: tuple[Sides, ...] = ((-1,), (1,)) if len(fields) > 1 else ((-1, 1),)
     for i, (panel, frame) in enumerate(zip(axes.flat, frames)):
         painted = [
-            paint_cells(panel, frame.means.polygons, means[i], style, sides)
+            paint_smoothly(panel, frame, means[i], style, sides)
             for (_, means, style), sides in zip(fields, both)
         ]
         draw_about(panel, frame, window)
-        panel.label_outer()
     for panel in axes[:, 0]:
         panel.set_ylabel("z (m)")
-    places: list[Any] = list(axes.T[[0, -1]]) if len(fields) > 1 else [axes]
     for artist, (label, _, style), place in zip(painted, fields, places):
-        bar: Style = {"location": "bottom", "aspect": 35, "shrink": 0.9, "label": label}
+        bar: Style = {
+            "orientation": "horizontal",
+            "label": label.replace(": ", ":\n", 1),
+        }
         extend = "max" if style.get("vmin") == 0 else "both"
-        colors = figure.colorbar(artist, ax=place, extend=extend, **bar)
+        colors = figure.colorbar(artist, cax=place, extend=extend, **bar)
         if "norm" in style:
             colors.set_ticks(steps := [0.1, 0.2, 0.5, 1, 2, 5, 10], labels=steps)
     in_units(figure, frames[0].shown)
@@ -295,7 +331,10 @@ def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
         "left halves: vertical effective stress (kPa)",
         *stress_of(frames, window),
     )
-    sides = [stress, ratio_of("right halves: ratio to the stress at rest (-)", frames)]
+    sides = [
+        stress,
+        ratio_of("right halves: ratio to stress at rest (gray: none)", frames),
+    ]
     return disk.save(figure_of(frames, window, sides)[0], path)
 
 
@@ -311,7 +350,7 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
     if high - low < 0.05:
         return None
     style = {"cmap": "viridis", "vmin": low, "vmax": high}
-    field = ("void ratio (-), mean of each cell", fields, style)
+    field = ("void ratio (-)", fields, style)
     return disk.save(figure_of(frames, window, [field])[0], path)
 
 
@@ -326,7 +365,7 @@ def draw_tip(
     shown = (np.abs(position - middle).max(axis=1) < half + size) & (size > 0)
     highest = nice_above(np.percentile(values[shown], 99.5)) if shown.any() else 1
     style = {**style, "vmin": 0, "vmax": highest}
-    paint_cells(axes, frame.means.polygons, frame.means.of(values), style, (1,))
+    paint_smoothly(axes, frame, frame.means.of(values), style, (1,))
     discs = EllipseCollection(
         size[shown],
         size[shown],
@@ -346,7 +385,7 @@ def draw_tip(
     axes.set_ylim(bottom, top)
     axes.set_aspect("equal")
     axes.set_xlabel("r (m)")
-    axes.set_title("at the tip", fontsize=10)
+    axes.set_title("at the tip")
     return discs
 
 
@@ -373,21 +412,21 @@ def draw_displacement(
         label = "plastic deviatoric strain (-)"
         fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
-    figure = Figure(figsize=(5.5 * n, 4.5), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.15)  # between a color bar and its neighbor
+    figure = Figure(figsize=(PAGE, 2.9), layout="constrained")
     axes = figure.subplots(1, n, squeeze=False)[0]
     means = frame.means.of(moved)
     highest = nice_above(np.percentile(means[inside(frame, window)], 99))
     style = {"cmap": "viridis", "vmin": 0, "vmax": highest}
-    painted = [paint_cells(axes[0], frame.means.polygons, means, style)]
+    painted: list[Any] = [paint_smoothly(axes[0], frame, means, style)]
     draw_about(axes[0], frame, window)
     axes[0].set_ylabel("z (m)")
     if box:
         for panel, (_, values, colors) in zip(axes[1:], fields):
             painted.append(draw_tip(panel, frame, values, box, {"cmap": colors}))
-    labels = ["displacement (m), mean of each cell", *[label for label, *_ in fields]]
+    labels = ["displacement (m)", *[label for label, *_ in fields]]
     for panel, artist, label in zip(axes, painted, labels):
-        figure.colorbar(artist, ax=panel, extend="max", shrink=0.8, label=label)
+        bar: Style = {"location": "bottom", "extend": "max", "label": label}
+        figure.colorbar(artist, ax=panel, **bar)
     in_units(figure, frame.shown)
     return disk.save(figure, path)
 
@@ -399,6 +438,10 @@ def frames_of(run: Results) -> list[Frame]:
         print(f"plot: the frames of {run.directory} are gone, so forces only")
         return []
     wanted = run.scene.get("frame_penetrations_m") or []
+    if len(series) > 1 and not (run.scene and run.summary.get("installation")):
+        start = depth_at(series[0][0], run.history)
+        series = series[1:]  # the first one is undisturbed
+        wanted = [depth for depth in wanted if depth > start + 1e-3]
     return [
         Frame(time, files, grids, run)
         for time, files in chosen(series, run.history, wanted)

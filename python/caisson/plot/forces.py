@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from caisson import curves
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import theory
-from caisson.plot.small import in_units, over_depth, with_note
+from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
 
@@ -62,15 +62,13 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
     axes.plot(smooth(depth, force), depth, color=color, linewidth=MEAN, label=name)
 
 
-def remark_on(history: Table) -> str:
-    """Return what a run with suction must add to the name of a method, whose forces
-    are those of jacking."""
-    return ", jacked" if "required_suction_Pa" in history else ""
+def has_suction(run: Results) -> bool:
+    """Return whether a run has suction: its forces are not those of jacking, beside
+    which methods stand."""
+    return "required_suction_Pa" in run.history
 
 
-def draw_bands(
-    axes: Axes, answer: theory.Answer, names: tuple[str, ...], remark: str
-) -> None:
+def draw_bands(axes: Axes, answer: theory.Answer, names: tuple[str, ...]) -> None:
     """Draw the range of Houlsby and Byrne, and the bound below it."""
     for name in names if answer.forces else ():
         low, high = [force / 1e3 for force in answer.band(name)]
@@ -84,7 +82,7 @@ def draw_bands(
             hatch=hatch,
             alpha=0.3 if hatch else 0.15,
             linewidth=0,
-            label=f"{name}, {answer.name}{remark}",
+            label=f"{name}, {answer.name}",
         )
         axes.plot(low, answer.depth, color=color, linewidth=0.8, linestyle="--")
         axes.plot(high, answer.depth, color=color, linewidth=0.8, linestyle=":")
@@ -129,12 +127,17 @@ def draw_error_bars(axes: Axes, bounds: Table) -> None:
             )
 
 
-def set_limits(axes: Axes, depth: np.ndarray) -> None:
+def set_limits(axes: Axes, depth: np.ndarray, end: float | None) -> None:
     """Set limits from the running means, so that no spike of a raw line hides them,
-    and from the methods up to half as much again."""
+    and from the methods up to half as much again. end: the depth where suction ends
+    (m), below which all is gray."""
 
     def values(is_mean: Callable[[float], bool]) -> np.ndarray:
-        lines = [x.get_xdata() for x in axes.lines if is_mean(x.get_linewidth())]
+        lines = [
+            x.get_xdata()[x.get_ydata() <= (np.inf if end is None else end)]
+            for x in axes.lines
+            if is_mean(x.get_linewidth())
+        ]
         found = np.concatenate([*lines, np.zeros(1)])
         return found[np.isfinite(found)]
 
@@ -144,13 +147,15 @@ def set_limits(axes: Axes, depth: np.ndarray) -> None:
     span = max(most - least, 1e-3)
     axes.set_xlim(least - 0.02 * span, most + 0.08 * span)
     axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
+    fade(axes, end)
 
 
 def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
     depth = f"penetration of the {LOWEST.get(body, 'tip')} (m)"
     over_depth(axes, f"{name} (kN)", depth)
-    axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
 
 
 def draw_panel(
@@ -165,12 +170,11 @@ def draw_panel(
     friction_only = names == FRICTION
     if not friction_only and (force := history.get(curves.WITH_WATER)) is not None:
         draw_curve(axes, depth, force, WITH_WATER)
-    draw_bands(
-        axes, answer, names if friction_only else ("total", "tip"), remark_on(history)
-    )
+    if not has_suction(run):
+        draw_bands(axes, answer, names if friction_only else ("total", "tip"))
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
-    set_limits(axes, depth)
+    set_limits(axes, depth, run.feasible_to)
     label_axes(axes, "wall friction" if friction_only else "force", run.body)
 
 
@@ -195,7 +199,7 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
                 linestyle=line,
                 label=f"{answer.name}, {case}",
             )
-    set_limits(axes, depth)
+    set_limits(axes, depth, run.feasible_to)
     label_axes(axes, "total force, and by design methods", run.body)
 
 
@@ -220,6 +224,8 @@ def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> st
         f"thin: raw, thick: mean over {whole}, which ends {half} before the ends of the"
         " curve"
     )
+    if has_suction(run):
+        return text
     if answers[0].forces:
         text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
     silent = theory.reasons_in_words(answers)
@@ -233,7 +239,7 @@ def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
     where there is one besides Houlsby and Byrne."""
     site = theory.site_of(run)
     answers = theory.answers_to(site, max(depth.max(), 0))
-    with_methods = any(map(has_line, answers[1:]))
+    with_methods = not has_suction(run) and any(map(has_line, answers[1:]))
     figure = Figure(figsize=(16.5 if with_methods else 11, 6.5))
     figure.suptitle(run.title, fontsize=10)
     panels = figure.subplots(1, 3 if with_methods else 2)

@@ -33,8 +33,9 @@ def title_of(frame: fields.Frame, history: Table) -> str:
     """Return where the frame is, and the suction there."""
     if "suction_Pa" not in history:
         return frame.label
-    suction = np.interp(frame.time, history["time_s"], history["suction_Pa"]) / 1e3
-    return f"{frame.label}, suction {suction:.1f} kPa"
+    suction = float(np.interp(frame.time, history["time_s"], history["suction_Pa"]))
+    words = f"suction {frame.shown.words(suction / 1e3, 'kPa', '.1f')}"
+    return f"{frame.label}\n{', '.join(filter(None, (words, frame.mark)))}"
 
 
 def level_of(frame: fields.Frame, window: fields.Window) -> float:
@@ -82,8 +83,8 @@ def caption(frames: Sequence[fields.Frame]) -> str:
     """Return what the lines mean."""
     level = "half the depth of the tip" if len(frames[-1].body) else "the mudline"
     return (
-        f"Between two flow lines flows 1/{N_LINES} of the water that rises at {level};"
-        " the permeability is taken to be the same in all directions."
+        f"Between two flow lines flows 1/{N_LINES} of the water that rises at"
+        f" {level};\nthe permeability is taken to be the same in all directions."
     )
 
 
@@ -116,14 +117,14 @@ def draw(
     style = style_of(low, high)
     flows = "flow_iterations" in run.history  # not in undrained soil
     pressure = ("left halves: excess pore pressure (kPa)", pressures, style)
-    label = "right halves: vertical effective stress over that at rest (-)"
+    label = "right halves: ratio to stress at rest (gray: none)"
     sides = [pressure, fields.ratio_of(label, frames)]
-    figure, axes = fields.figure_of(frames, window, sides)
+    figure, axes = fields.figure_of(frames, window, sides, 0.4 if flows else 0.0)
     least = LEAST * max(-style["vmin"], style["vmax"]) if flows else None
     for panel, frame in zip(axes.flat, frames):
         draw_water(panel, frame, window, least)
-        panel.set_title(title_of(frame, run.history), fontsize=10)
+        panel.set_title(title_of(frame, run.history))
     if flows:
-        figure.supxlabel(f"\n{caption(frames)}", fontsize=8, color="0.3")
+        figure.supxlabel(caption(frames), fontsize=9, color="0.3")
     path = run.directory / "pore_pressure.png"
     return disk.save(figure, path)

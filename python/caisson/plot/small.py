@@ -8,6 +8,18 @@ from matplotlib.ticker import FuncFormatter
 from caisson.shown import Units
 
 
+def fade(axes: Axes, end: float | None) -> None:
+    """Draw gray what is deeper than suction reaches (m)."""
+    if end is not None:
+        bottom = max(axes.get_ylim())
+        axes.axhspan(end, bottom, color="0.88", alpha=0.8, linewidth=0, zorder=2.5)
+        if end < bottom:
+            at = (0.5, (end + bottom) / 2)
+            place = axes.get_yaxis_transform()
+            style = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}
+            axes.text(*at, "not feasible", transform=place, color="0.3", **style)
+
+
 def in_units(figure: Figure, shown: Units) -> None:
     """Let the axes of a figure, whose labels have kN, kPa or m in brackets, show their
     numbers in the units of a run."""

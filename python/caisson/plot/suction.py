@@ -12,7 +12,7 @@ from caisson.plot import suction_methods as methods
 from caisson.plot import theory
 from caisson.curves import error_band
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
-from caisson.plot.small import in_units, over_depth, with_note
+from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
 
@@ -142,7 +142,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     )
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
-    lines = [applied]
+    lines = [applied[depth <= (run.feasible_to or np.inf)]]
     draw_required(axes, answers)
     draw_critical(axes, answers)
     known = [*answers.suctions.values(), *answers.plug.values()]
@@ -187,8 +187,11 @@ def draw_heave(axes: Axes, run: Results) -> None:
     draw_error_bar(axes, band, 1.0, "black", ERROR_BAR)
     axes.axvline(0, color="0.6", linewidth=0.8)
     if "seepage_flow_m3_s" in history:
-        flow = 3600 * history["seepage_flow_m3_s"][-1]
-        text = f"seepage into the plug at the end: {flow:.2g} m³/h"
+        depth = history["penetration_m"]
+        last = np.flatnonzero(depth <= (run.feasible_to or np.inf))[-1]
+        flow = 3600 * history["seepage_flow_m3_s"][last]
+        place = run.shown.depth(depth[last])
+        text = f"seepage into the plug at {place}: {flow:.2g} m³/h"
         axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlabel("heave of the plug (m)")
 
@@ -243,15 +246,19 @@ def draw(directory: Path, run: Results) -> list[Path]:
         return []
     site, deepest = theory.site_of(run), max(depth.max(), 0)
     answers = methods.answers_of(site, np.linspace(0, deepest, 200))
-    figure = Figure(figsize=(14, 6.5))
-    panels = figure.subplots(1, 3, width_ratios=[1.7, 1, 1])
+    seeps = "critical_gradient" in history  # not in clay
+    figure = Figure(figsize=(14 if seeps else 10, 6.5))
+    panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
     draw_suction(panels[0], run, answers)
-    draw_gradients(panels[1], run)
-    draw_heave(panels[2], run)
-    for axes, place in zip(panels, ("upper right", "lower left", "upper right")):
+    if seeps:
+        draw_gradients(panels[1], run)
+    draw_heave(panels[-1], run)
+    places = ("upper right", "lower left", "upper right")
+    for axes, place in zip(panels, places if seeps else places[::2]):
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
+        fade(axes, run.feasible_to)
         axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)

@@ -9,7 +9,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.plot.fields import MOST_FRAMES
+from caisson.plot.fields import MOST_FRAMES, PAGE
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson import disk
@@ -68,7 +68,7 @@ def draw(path: Path, run: Results) -> Path | None:
     if not names:
         return None
     times = shown_times(walls, run.scene.get("frame_penetrations_m") or ())
-    figure = Figure(figsize=(4.4 * len(names) + 1, 8.4), layout="constrained")
+    figure = Figure(figsize=(PAGE, 4.8), layout="constrained")
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         for panel, name in zip(row, names):
@@ -77,9 +77,9 @@ def draw(path: Path, run: Results) -> Path | None:
             column = f"{name}_{stress}_Pa"
             draw_panel(panel, walls, times, column, (factor, beside), run.shown)
             panel.set_xlabel(f"{label} (kPa)")
-            panel.set_title(f"{name} wall", fontsize=10)
+            panel.set_title(f"{name} wall")
         row[0].set_ylabel("depth (m)")
-        row[0].legend(title="penetration", fontsize=8)
+        row[0].legend(title="penetration")
     axes[0, 0].invert_yaxis()  # that of all
     in_units(figure, run.shown)
     return disk.save(figure, path)

@@ -21,12 +21,13 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 def write(directory: Path, rate: float | None = None) -> Path:
     """Write the report of a run, with a pump for a rate of penetration (m/h), or an
     assumed one; return its path. Raises ResultsError."""
-    from caisson.report import page
+    from caisson.report import page, verdict
     from caisson.report.installation import Rate
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     error_bounds.adopt(directory)
+    verdict.keep(Results(directory))
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
     return disk.write(directory / NAME, text)
 

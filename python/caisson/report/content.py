@@ -15,8 +15,8 @@ from caisson.plot.forces import (
     WATER_COLOR,
     WITH_WATER,
     column_of,
+    has_suction,
     penetration,
-    remark_on,
     smooth,
 )
 from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, PLUG_COLOR, RED
@@ -31,6 +31,7 @@ from caisson.report.installation import (
 )
 from caisson.report.pull import PULL, is_pull, pull_parts
 
+GRAY = "#aaaaaa"  # what is deeper than suction reaches
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 LIGHT = {  # of Houlsby & Byrne
     "total": "#7f7f7f",
@@ -75,29 +76,46 @@ def band(
     return line(label, color, low, depth, to=listed(high[thinned(depth)]))
 
 
+def down_to(end: float | None, *columns: np.ndarray) -> list[np.ndarray]:
+    """Return the rows of columns [n], the first of which is a depth, above an end."""
+    rows = columns[0] <= (math.inf if end is None else end)
+    return [column[rows] for column in columns]
+
+
+def own(
+    label: str, color: str, x: np.ndarray, depth: np.ndarray, end: float | None
+) -> list[Curve]:
+    """Return a curve of the run, gray behind the depth where suction ends (m)."""
+    if end is None or end >= depth.max():
+        return [line(label, color, x, depth, thick=True)]
+    rows = depth <= end
+    behind = line(f"{label}, not feasible", GRAY, x[~rows], depth[~rows], far=True)
+    return [line(label, color, x[rows], depth[rows], thick=True), behind]
+
+
 def method_curves(run: Results, deepest: float) -> list[Curve]:
     """Return the ranges of the design methods (kN) over depth (m). Only tip and total
-    by Houlsby & Byrne are shown at first, and nothing where there is suction."""
-    found, remark = [], remark_on(run.history)
+    by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
+    forces of jacking."""
+    found: list[Curve] = []
+    if has_suction(run):
+        return found
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
         for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
-            label = f"{part}, {answer.name}{remark}"
+            label = f"{part}, {answer.name}"
             color = LIGHT[part] if first else answer.method.color
             curve = band(label, color, low, high, answer.depth)
-            found.append(
-                curve | {"hidden": bool(remark) or not first or part not in SHOWN}
-            )
+            found.append(curve | {"hidden": not first or part not in SHOWN})
             for bound in answer.method.bound if part == "total" else ():
                 force = answer.forces[bound][part] / 1e3
-                label = f"{part}, {theory.LOWER_BOUND}{remark}"
-                curve = line(label, color, force, answer.depth)
-                found.append(curve | {"hidden": bool(remark)})
+                label = f"{part}, {theory.LOWER_BOUND}"
+                found.append(line(label, color, force, answer.depth))
     return found
 
 
-def force_curves(run: Results) -> list[Curve]:
+def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     """Return the forces (kN) over depth (m) with their error bars and the range of
     Houlsby & Byrne."""
     history, depth = run.history, run.history["penetration_m"]
@@ -105,14 +123,14 @@ def force_curves(run: Results) -> list[Curve]:
     for name, color in COLORS.items():
         bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
         if bar is not None:
-            at, low, high = bar
+            at, low, high = down_to(end, *bar)
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
     for name, color in COLORS.items():
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
-            found.append(line(name, color, force, depth, thick=True))
+            found += own(name, color, force, depth, end)
     if (total := history.get(curves.WITH_WATER)) is not None:
         mean = smooth(depth, total)
         found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
@@ -160,7 +178,7 @@ def limit_curves(found: Installation) -> list[Curve]:
 
 def axis_end(shown: list[Curve]) -> float:
     """Return where the axis of the suction ends (kPa), as in limits() of page.js."""
-    own = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
+    most = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
     ends = [
         x
         for curve in shown
@@ -168,7 +186,7 @@ def axis_end(shown: list[Curve]) -> float:
         for x in [*curve["x"], *curve.get("to", [])]
         if x is not None
     ]
-    return 1.03 * (min(max(ends), 1.5 * own) if own > 0 else max(ends))
+    return 1.03 * (min(max(ends), 1.5 * most) if most > 0 else max(ends))
 
 
 def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
@@ -185,18 +203,20 @@ def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
     return f"Beyond the right end of the chart: {', '.join(words)}." if words else ""
 
 
-def suction_curves(run: Results, found: Installation) -> list[Curve]:
+def suction_curves(
+    run: Results, found: Installation, end: float | None = None
+) -> list[Curve]:
     """Return the required suction (kPa) over depth (m), beside methods and limits."""
     history, depth = run.history, run.history["penetration_m"]
     shown = [*method_suctions(run), *limit_curves(found)]
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
-        at, low, high = [bar[0], *(np.maximum(bound, 0) / 1e3 for bound in bar[1:])]
+        at, *ends = down_to(end, *bar)
+        low, high = (np.maximum(bound, 0) / 1e3 for bound in ends)
         shown.append(band("required, error bar", "black", low, high, at))
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
-    shown.append(line(label, "black", required, depth, thick=True))
-    return shown
+    return shown + own(label, "black", required, depth, end)
 
 
 def with_points(found: list[Curve]) -> list[Curve]:
@@ -239,21 +259,25 @@ def pull_figure(run: Results) -> dict[str, Any]:
         "title": "Pull, and what bears it, over the rise",
         "axis": "force (kN)",
         "upward": True,  # the other axis, which is in mm
-        "note": "What soil and water bear; the submerged weight is none of it.",
+        "note": "What soil and water bear, without the weight. The curve begins"
+        f" where the caisson is pulled, {rise[0]:.3g} mm above its deepest place.",
         "curves": with_points(shown),
     }
 
 
-def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]:
+def figures_of(
+    run: Results, found: Installation | None, end: float | None = None
+) -> list[dict[str, Any]]:
     """Return the interactive figures: id, title, axis, note and curves that have
-    points; the suction, where there is any, before the forces."""
+    points; the suction, where there is any, before the forces. end: the depth where
+    suction ends (m)."""
     if penetration(run.history) is None:
         return []
     if is_pull(run):
         return [in_units(pull_figure(run), run.shown)]
     figures = []
     if found is not None and found.has_suction:
-        suctions = with_points(suction_curves(run, found))
+        suctions = with_points(suction_curves(run, found, end))
         figures.append(
             {
                 "id": "suction",
@@ -269,13 +293,14 @@ def figures_of(run: Results, found: Installation | None) -> list[dict[str, Any]]
             "title": "Forces on the caisson",
             "axis": "force (kN)",
             "note": "",
-            "curves": with_points(force_curves(run)),
+            "curves": with_points(force_curves(run, end)),
         }
     )
-    return [in_units(figure, run.shown) for figure in figures]
+    place = None if end is None else run.shown.factor("m") * end
+    return [in_units(figure, run.shown) | {"end": place} for figure in figures]
 
 
-def unit_table(run: Results) -> dict[str, Any]:
+def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     """Return the unit resistances at each half meter: heads and rows of text.
 
     They are those of the way down, or of the way up where there is none. Friction is
@@ -290,7 +315,7 @@ def unit_table(run: Results) -> dict[str, Any]:
     if len(way) < 2:
         return nothing
     depth = history["penetration_m"][way]
-    at = depths_of(depth)
+    at = curves.down_to(end, depths_of(depth))
     at = at[at > 0]
 
     def mean(column: str) -> np.ndarray:
@@ -364,26 +389,6 @@ def remarks_on_numbers(run: Results) -> list[str]:
         else f"{inside} material points were inside the body at once."
     )
     return found
-
-
-def error_remark(run: Results) -> str:
-    """Return what is known of the error of the curve."""
-    bounds = run.error_bounds
-    if not bounds or "total_force_low_N" not in bounds:
-        return (
-            "This scene has no error bar of its own. Those of the reference scenes are"
-            " in the manual; caisson error-bar computes its own."
-        )
-    force = np.where(bounds["total_force_N"] == 0, np.nan, bounds["total_force_N"])
-    below, above = [
-        100
-        * np.nanmean(np.abs(bounds[f"total_force_{side}_N"] - force) / np.abs(force))
-        for side in ("low", "high")
-    ]
-    return (
-        f"Error bar of the total force: -{below:.2g} % to +{above:.2g} % in the mean,"
-        " from runs with other meshes, steps and numbers of points."
-    )
 
 
 def csv_of(history: Table) -> str:

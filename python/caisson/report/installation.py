@@ -17,12 +17,11 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import (
+    DEPTH,
     GRADIENT,
     at_depths,
     pump_limit,
     rest_of_run,
-    results_of,
-    way_down,
 )
 from caisson.paths import INSTALLED
 from caisson.plot import design, suction_methods, theory
@@ -126,7 +125,10 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
     if sides[0] not in numbers:
         return None
     values, depth = numbers[name], numbers["penetration_m"]
-    last = int(np.flatnonzero(np.isfinite(numbers[sides[0]]))[-1])
+    known = np.flatnonzero(np.isfinite(numbers[sides[0]]))
+    if not len(known):
+        return None
+    last = int(known[-1])
     held = (depth > depth[last]) & (depth <= depth[last] + HELD)
     found = []
     for side in sides:
@@ -138,8 +140,11 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
     """Return the suction (kPa) at which the exit gradient of the run becomes critical,
-    at depths [n], nan before there is suction. The flow is linear in the suction."""
+    at depths [n], nan before there is suction, and in clay, where nothing flows. The
+    flow is linear in the suction."""
     history = run.history
+    if "critical_gradient" not in history:
+        return np.full(len(at), np.nan)
     rows = curves.way_down(history["penetration_m"])[1:]
     depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
     share = curves.gradient_share(history)[rows]
@@ -167,12 +172,15 @@ def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, An
     return limits
 
 
-def installation_of(run: Results, rate: Rate) -> Installation | None:
-    """Return the installation; None for a run that does not go down."""
+def installation_of(
+    run: Results, rate: Rate, at: np.ndarray | None = None
+) -> Installation | None:
+    """Return the installation at depths [n] (m), or those of the tables; None for a run
+    that does not go down."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return None
-    numbers = at_depths(run)
+    numbers = at_depths(run, at)
     if not numbers or not set(design.FORCES) <= set(numbers):
         return None
     at = numbers["penetration_m"]
@@ -195,18 +203,20 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
         found.required_bounds = bars.scaled(1e-3, 0.0)
     if weight := scene.get("submerged_weight_N"):
         found.excess = (float(weight) - found.forces["total_force_N"][-1] * 1e3) / 1e3
-    found.gradient, found.heave = numbers[GRADIENT], numbers["plug_heave_m"]
+    found.gradient = numbers.get(GRADIENT, np.empty(0))
+    found.heave = numbers["plug_heave_m"]
     if length := scene.get("skirt_length_m"):
         found.room = float(length) - at - found.heave
     boils = numbers.get("cavitation_suction_Pa", np.full(len(at), np.nan)) / 1e3
     if found.has_suction:
         found.limits = limits_of(run, at, boils)
     found.rest = rest_of_run(run.history)
-    if scene.get("diameter_m") and "seepage_flow_m3_s" in numbers:
-        found.seepage = HOUR * np.maximum(numbers["seepage_flow_m3_s"], 0)
+    if scene.get("diameter_m"):
+        if "seepage_flow_m3_s" in numbers:
+            found.seepage = HOUR * np.maximum(numbers["seepage_flow_m3_s"], 0)
         rise = np.gradient(found.heave, at) if len(at) > 1 else np.zeros(len(at))
-        speed = rate.meters_per_hour * (1 + rise)
-        found.flow = plug_area(scene) * speed + found.seepage
+        seeps = found.seepage if len(found.seepage) else np.zeros(len(at))
+        found.flow = plug_area(scene) * rate.meters_per_hour * (1 + rise) + seeps
 
 
 def way_to_an_error(run: Results) -> str:
@@ -219,27 +229,24 @@ def way_to_an_error(run: Results) -> str:
     return f"{command} --error {said[1] if said else 10}% {scene}"
 
 
-def bar_in_words(
-    run: Results, found: Installation, bounds: Bounds | None, unit: str
-) -> str:
-    """Return where the end is, and its error bar, or what computes it."""
-    place = f"at {found.shown.depth(found.depth[-1])}"
-    factor, unit = found.shown.factor(unit), found.shown.name(unit)
+def bar_at(found: Installation, bounds: Bounds | None, i: int, unit: str) -> str:
+    """Return the error bar of a row in words; nothing where it is not known."""
+    if bounds is None or not np.isfinite([bounds.low[i], bounds.high[i]]).all():
+        return ""
+    ends = [text_of(found.shown.factor(unit) * x[i]) for x in (bounds.low, bounds.high)]
+    about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
+    return f"{about}{ends[0]} to {ends[1]} {found.shown.name(unit)}"
+
+
+def bar_in_words(run: Results, found: Installation) -> str:
+    """Return how far the error bar reaches, or what computes it."""
+    bounds = found.required_bounds if found.has_suction else found.force_bounds
     if bounds is None:
-        return f"{place}; error bar not known, {way_to_an_error(run)} computes it"
-    low, high = factor * bounds.low[-1], factor * bounds.high[-1]
+        return f"Error bar not known: {way_to_an_error(run)} computes it."
     end = found.shown.length(float(f"{bounds.end:.4g}"))
-    if not np.isfinite([low, high]).all():
-        return f"{place}; error bar known only to {end}"
     if found.depth[-1] <= bounds.end + 1e-2:
-        return f"{place}; error bar {text_of(low)} to {text_of(high)} {unit}"
-    words = f"about {text_of(low)} to {text_of(high)} {unit}"
-    return f"{place}; {words} (error bar of {end})"
-
-
-def three_digits(value: float, bounds: Bounds | None) -> str:
-    """Return a number of a card: without an error bar no more digits than three."""
-    return f"{value if bounds else float(f'{value:.3g}'):.0f}"
+        return ""
+    return f"The error bar reaches to {end}."
 
 
 def in_range(
@@ -247,15 +254,9 @@ def in_range(
 ) -> list[str]:
     """Return values [n] in the unit shown, with their bounds where they have any:
     about, below the end of these."""
-    factor, texts = found.shown.factor(unit), list[str]()
-    for i, value in enumerate(values):
-        text = text_of(factor * float(value))
-        if bounds is not None and np.isfinite([bounds.low[i], bounds.high[i]]).all():
-            about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
-            ends = [text_of(factor * float(x[i])) for x in (bounds.low, bounds.high)]
-            text += f" ({about}{ends[0]} to {ends[1]})"
-        texts.append(text)
-    return texts
+    texts = [text_of(found.shown.factor(unit) * float(value)) for value in values]
+    bars = [bar_at(found, bounds, i, unit) for i in range(len(values))]
+    return [f"{t} ({b.rpartition(' ')[0]})" if b else t for t, b in zip(texts, bars)]
 
 
 def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
@@ -309,8 +310,8 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
         add(takes, "plug heave (m)", found.heave)
         add(takes, "room below the lid (m)", found.room)
         return [rows_of(takes)]
+    takes["of which seepage (m³/h)"] = texts_of(found.seepage)
     if len(found.flow):
-        takes["of which seepage (m³/h)"] = texts_of(found.seepage)
         power = found.flow / HOUR * found.required
         takes["power of the water (kW)"] = texts_of(power)
     allowable = found.allowable
@@ -320,147 +321,60 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     margins["governed by"] = [found.governing(i) for i in n]
     add(margins, "required / allowable", found.required / allowable)
     add(margins, "exit gradient / critical", found.gradient)
-    add(margins, "margin to piping (%)", 100 * (1 - found.gradient))
     add(margins, "plug heave (m)", found.heave)
     add(margins, "room below the lid (m)", found.room)
     return [rows_of(takes), rows_of(margins)]
 
 
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
-    """Return (name, value, remark) of what matters most."""
-    if not len(found.required):
-        return force_cards(run, found)
+    """Return (name, value, remark) of what matters beside the verdict."""
     cards: list[tuple[str, ...]] = []
+    if not len(found.required):
+        return cards
     weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
     shown = found.shown
-    if found.has_suction:
-        value = shown.words(found.required[-1], "kPa", ".1f")
-        remark = bar_in_words(run, found, found.required_bounds, "kPa")
-        cards.append(("Required suction", value, remark))
-        most, depth = largest_of(run, design.SUCTION)
-        if most > 1.02 * found.required[-1]:
-            remark = f"at {shown.depth(depth)}"
-            value = shown.words(most, "kPa", ".1f")
-            cards.append(("Largest required suction", value, remark))
-        if found.rest is not None:
-            remark = (
-                f"under {shown.words(weight, 'kN', '.4g')} in water" if weight else ""
+    if not found.has_suction:
+        remark = "no suction needed to this depth"
+        if found.excess is not None:
+            more = shown.words(found.excess, "kN", ".0f")
+            remark = f"the weight exceeds the resistance by {more}: {remark}"
+        value = f"more than {shown.place(found.depth[-1])}"
+        cards.append(("Self-weight penetration", value, remark))
+        return cards + pump_cards(run, found, rate)
+    if found.rest is not None:
+        remark = f"under {shown.force(weight)} in water" if weight else ""
+        cards.append(("Self-weight penetration", shown.depth(found.rest), remark))
+    return cards + pump_cards(run, found, rate)
+
+
+def quarters_of(
+    run: Results, found: Installation, end: float | None, planned: float | None
+) -> dict[str, Any]:
+    """Return the table of the suction at quarters of the planned penetration (m); end:
+    where suction ends (m), None where it does not."""
+    if not found.has_suction or not planned:
+        return {}
+    shown, reached = found.shown, float(found.depth[-1])
+    wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
+    at = wanted[(wanted <= reached + 1e-3 * planned) & (wanted > run.history[DEPTH][0])]
+    known = installation_of(run, Rate(), at) if len(at) else None
+    absent = "not feasible" if end is not None else "not reached"
+    rows = []
+    for share, depth in zip((25, 50, 75, 100), wanted):
+        place = f"{share} %: {shown.place(depth)}"
+        if known is None or depth not in at:
+            rows.append(
+                [place, absent if depth > reached else "before the start", "", ""]
             )
-            value = shown.depth(found.rest)
-            cards.append(("Self-weight penetration", value, remark))
-        return cards + margin_cards(run, found) + pump_cards(run, found, rate)
-    remark = "no suction needed to this depth"
-    if found.excess is not None:
-        more = shown.words(found.excess, "kN", ".0f")
-        remark = f"the weight exceeds the resistance by {more}: {remark}"
-    value = f"more than {shown.depth(found.depth[-1])}"
-    cards.append(("Self-weight penetration", value, remark))
-    return cards + force_cards(run, found)[:1] + pump_cards(run, found, rate)
-
-
-def force_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
-    """Return the cards of the forces."""
-    total, depth = found.forces["total_force_N"], found.depth
-    remark = bar_in_words(run, found, found.force_bounds, "kN")
-
-    def words(force: float) -> str:
-        value = found.shown.factor("kN") * float(force)
-        return f"{three_digits(value, found.force_bounds)} {found.shown.name('kN')}"
-
-    name = "Resistance at the end" if len(found.required) else "Force at the end"
-    cards: list[tuple[str, ...]] = [(name, words(total[-1]), remark)]
-    most, at = largest_of(run, "total_force_N")
-    if depth[-1] - at > 1e-3 * min(1.0, float(depth[-1])):
-        remark = f"at {found.shown.depth(at)}"
-        cards.append(("Largest force", words(most), remark))
-    tip, inner, outer = (words(found.forces[k][-1]) for k in design.FORCES[:3])
-    cards.append(("Of which tip", tip, f"friction inside {inner}, outside {outer}"))
-    if len(found.with_water):
-        value = found.shown.factor("kN") * float(found.with_water[-1])
-        force = f"{three_digits(value, None)} {found.shown.name('kN')}"
-        remark = "what the caisson feels: effective force and excess pore pressure"
-        cards.insert(0, ("Force with water", force, remark))
-        cards[1] = ("Effective " + name[0].lower() + name[1:], *cards[1][1:])
-    length = run.scene.get("skirt_length_m")
-    of_skirt = f"of {found.shown.length(float(length))} of skirt" if length else ""
-    return [*cards, ("Penetration reached", found.shown.depth(depth[-1]), of_skirt)]
-
-
-def least_margin(run: Results) -> tuple[float, float]:
-    """Return the least margin to piping (a share of 1) and its depth (m)."""
-    piping = results_of(run)["margins"]["piping"]
-    return float(piping["least"]), float(piping["penetration_m"])
-
-
-def largest_of(run: Results, column: str) -> tuple[float, float]:
-    """Return the largest value (kN or kPa) of a column and its depth (m)."""
-    way = way_down(run)
-    most, depth = way.largest(way.columns[column])
-    return most / 1e3, depth
-
-
-def piping_bar(run: Results, least: float, depth: float) -> Bounds | None:
-    """Return the error bar of the least margin to piping at its depth (m), [1]."""
-    history, bounds = run.history, run.error_bounds
-    names = ("exit_gradient_wall", "exit_gradient_axis")
-    i = int(np.argmin(np.abs(history["penetration_m"] - depth)))
-    name = max(names, key=lambda key: float(history[key][i]))
-    known = bounds.get("penetration_m", np.full(1, np.inf))
-    inside = known[0] - 1e-2 <= depth <= known[-1] + HELD
-    if not inside or f"{name}_low" not in bounds:
-        return None
-    more, less = (
-        np.interp([depth], known, bounds[f"{name}_{side}"] - bounds[name])
-        / history["critical_gradient"][i]
-        for side in ("high", "low")
-    )
-    return Bounds(least - more, least - less, float(known[-1]))
-
-
-def piping_warning(run: Results, found: Installation | None) -> list[str]:
-    """Return a warning where the error bar of the margin to piping includes 0."""
-    if found is None or not found.has_suction:
-        return []
-    least, depth = least_margin(run)
-    bar = piping_bar(run, least, depth)
-    if bar is None or least <= 0 or bar.low[0] > 0:
-        return []
-    return [
-        f"the margin to piping is {100 * least:.0f} % at {found.shown.depth(depth)},"
-        " and its error bar includes 0: the run does not show that piping stays away"
-    ]
-
-
-def margin_cards(run: Results, found: Installation) -> list[tuple[str, ...]]:
-    """Return the cards of the margins."""
-    (least, depth), shown = least_margin(run), found.shown
-    remark = (
-        f"least, at {found.shown.depth(depth)}: exit gradient {1 - least:.2f} of the"
-        " critical one"
-    )
-    if (bar := piping_bar(run, least, depth)) is not None:
-        ends = [f"{100 * float(side[0]) + 0.0:.0f}" for side in (bar.low, bar.high)]
-        held = (
-            f" of {shown.words(bar.end, 'm', '.4g')}" if depth > bar.end + 1e-2 else ""
-        )
-        remark = f"error bar{held} {ends[0]} to {ends[1]} %; {remark}"
-    cards: list[tuple[str, ...]] = [
-        ("Margin to piping", f"{100 * least:.0f} %", remark)
-    ]
-    ratio = np.nan_to_num(found.required / found.allowable)
-    worst = int(np.argmax(ratio))
-    if found.governing(worst):
-        cards.append(
-            (
-                "Required / allowable",
-                f"{ratio[worst]:.2f}" + (", exceeded" if ratio[worst] > 1 else ""),
-                f"at {shown.depth(found.depth[worst])}:"
-                f" {shown.factor('kPa') * found.required[worst]:.1f} of"
-                f" {shown.words(found.allowable[worst], 'kPa', '.1f')}"
-                f" ({found.governing(worst)})",
-            )
-        )
-    return cards
+            continue
+        i = int(np.flatnonzero(at == depth)[0])
+        needs = in_range(known, known.required, known.required_bounds, "kPa")[i]
+        if known.required[i] <= NOTHING:
+            needs = "0 (weight suffices)"
+        limit = text_of(shown.factor("kPa") * float(known.allowable[i]))
+        rows.append([place, needs, limit, known.governing(i)])
+    heads = ["penetration", "required suction (kPa)", "allowable (kPa)", "governed by"]
+    return {"heads": [shown.named(head) for head in heads], "rows": rows}
 
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
@@ -475,10 +389,9 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
         f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
     )
     if found.has_suction:
-        words += (
-            f", of which seepage {found.seepage[most]:.2g} m³/h; against"
-            f" {found.shown.words(found.required[most], 'kPa', '.1f')}"
-        )
+        words += f", against {found.shown.words(found.required[most], 'kPa', '.1f')}"
+        if len(found.seepage):
+            words += f", of which seepage {found.seepage[most]:.2g} m³/h"
     name = "Pump" if found.has_suction else "Water to vent"
     return name, f"{found.flow[most]:.3g} m³/h", words
 
@@ -503,14 +416,6 @@ def room_card(run: Results, found: Installation) -> tuple[str, ...]:
 
 
 def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
-    """Return the cards of plug, pump and boiling."""
+    """Return the cards of the pump and of the room below the lid."""
     cards = [flow_card(found, rate)] if len(found.flow) else []
-    boiling = found.limits.get(BOILING, np.full(1, np.nan))[-1]
-    if np.isfinite(boiling):
-        pump = found.limits.get(PUMP)
-        words = "no pump limit is set"
-        if pump is not None:
-            words = f"pump: {found.shown.words(pump[-1], 'kPa', '.4g')}"
-        remark = f"at {found.shown.depth(found.depth[-1])}; {words}"
-        cards.append(("Water boils at", f"{boiling:.0f} kPa", remark))
     return [*cards, room_card(run, found)] if len(found.room) else cards

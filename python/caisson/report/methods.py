@@ -2,7 +2,6 @@
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
 import math
-import re
 from typing import Any
 
 import numpy as np
@@ -90,27 +89,6 @@ def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
     """Return ratio_in_words() of each row."""
     return [ratio_in_words(*map(float, row)) for row in zip(computed, low, high)]
-
-
-def place_of(ratio: str) -> str:
-    """Return where a run is beside the band of a method, from ratio_in_words()."""
-    ends = [float(end) for end in re.findall(r"[\d.]+", ratio)]
-    if ends[0] > 1 and not ratio.startswith("at most"):
-        return "above"
-    return "below" if ends[-1] < 1 and not ratio.startswith("at least") else "within"
-
-
-def beside_the_band(rows: list[tuple[str, str]]) -> str:
-    """Return where a run is beside the band of a method over (depth, ratio), the
-    deepest last: "above the band to 4 m, within it deeper"."""
-    places = [(depth, place_of(ratio)) for depth, ratio in rows]
-    parts = [
-        f"{place} {{}} to {depth}"
-        for (depth, place), (_, after) in zip(places, places[1:])
-        if after != place
-    ]
-    parts.append(f"{places[-1][1]} {{}} deeper" if parts else f"{places[0][1]} {{}}")
-    return ", ".join(p.format("it" if i else "the band") for i, p in enumerate(parts))
 
 
 def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
@@ -367,22 +345,20 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
     fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
     measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
     for depth, name, value in (measured or fitted or answers)[:1]:
-        rows = [(d, v) for d, n, v in reversed(answers) if n == name]
-        words = f"of {name}, at {depth}; {beside_the_band(rows)}"
-        more = "; other methods below" if len({n for _, n, _ in answers}) > 1 else ""
-        return [("Computed / method", value, words + more)]
+        return [("Computed / method", value, f"of {name} at {depth}")]
     return []
 
 
-def methods_of(run: Results) -> dict[str, Any]:
+def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     """Return the tables of the design methods at each meter, (methods, why they say
-    nothing), and sentences on them; nothing for a run without a way down."""
+    nothing), and sentences on them; nothing for a run without a way down. end: the
+    depth where suction ends (m)."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return NOTHING
     rows_down = curves.way_down(history["penetration_m"])[1:]
     site = theory.site_of(run)
-    at = depths_of(history["penetration_m"][rows_down], 1.0)
+    at = curves.down_to(end, depths_of(history["penetration_m"][rows_down], 1.0))
     answers = theory.answers_of(site, at)
     with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None

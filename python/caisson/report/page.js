@@ -81,8 +81,10 @@
 
   // The methods widen the axis by at most half of what the run has; content.py has
   // the same end.
-  function limits(curves) {
-    let low = 0, high = 0, top = 0, bottom = 0, own = 0;
+  function limits(curves, upward) {
+    let low = 0, high = 0, top = upward ? Infinity : 0, bottom = 0, own = 0;
+    for (const curve of curves.filter((curve) => curve.far))
+      for (const y of curve.y) bottom = Math.max(bottom, y);
     for (const curve of curves.filter((curve) => !curve.far))
       for (const list of [curve.x, curve.to || []])
         list.forEach((x, i) => {
@@ -93,8 +95,10 @@
           top = Math.min(top, curve.y[i]);
           bottom = Math.max(bottom, curve.y[i]);
         });
-    if (own > 0) high = Math.min(high, 1.5 * own);
+    // the largest pull is in the middle
+    if (own > 0) high = upward ? 2 * own : Math.min(high, 1.5 * own);
     const wide = (high - low || 1) * 0.03, deep = (bottom - top || 1) * 0.02;
+    top = Math.min(top, bottom);
     return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };
   }
 
@@ -120,6 +124,10 @@
         borderColor: color("--rule"),
         color: color("--ink"),
         mouseActiveRadius: 400,
+        // deeper than suction reaches
+        markings: figure.end
+          ? [{ yaxis: { from: figure.end, to: box.bottom }, color: color("--panel") }]
+          : [],
       },
       xaxes: [{
         position: "top", axisLabel: figure.axis, font: font, autoScale: "none",
@@ -170,7 +178,7 @@
     const visible = () => figure.curves.filter((curve) => !curve.hidden);
 
     this.draw = function () {
-      $.plot(place, visible().map(series), options(figure, limits(visible())));
+      $.plot(place, visible().map(series), options(figure, limits(visible(), figure.upward)));
       // a canvas is empty on paper
       const paper = section.querySelector(".paper");
       paper.classList.toggle("dark", dark.matches);
@@ -220,7 +228,7 @@
   }
 
   window.addEventListener("beforeprint", () => {
-    document.querySelectorAll("details").forEach((part) => (part.open = true));
+    document.querySelectorAll("details.print").forEach((part) => (part.open = true));
   });
   const figures = data.figures.map((figure) => new Figure(figure));
   const renew = () => figures.forEach((figure) => figure.renew());

@@ -12,24 +12,24 @@ from caisson import plot
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.results import Results
-from caisson.report import content, installation, methods, pull, scene, sketch
+from caisson.results import Results, Table
+from caisson.report import content, installation, layers, methods, pull, scene
+from caisson.report import sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
-REFRESH = 30  # s, of the page of a run that has not ended
+REFRESH = 20  # s, of the page of a run that has not ended
+RECENT = 0.4  # of what is done, whose steps tell those that come
+GROWTH = 0.25  # of the time of a step, over a whole run
 # name of a picture without its suffix: what it shows
 PICTURES = {
     "stress": "Vertical effective stress",
     "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
-    "suction": "Suction, exit gradients and heave of the plug",
     "walls": "Stresses along the walls",
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
-    "forces": "Forces",
 }
-CHARTS = ("suction", "walls", "forces")  # pictures of lines, not of fields
-AS_IT_IS = ("Self-weight penetration", "Water boils at", "Computed / method")
+CHARTS = ("walls",)  # pictures of lines, not of fields
 LAST_ROWS = "The run failed: do not use the last rows."
 
 
@@ -60,7 +60,7 @@ def facts_of(run: Results) -> list[tuple[str, str]]:
     summary = run.summary
     points = summary.get("material_points", "not known")
     facts = [
-        ("Results", str(run.directory)),
+        ("Results", run.directory.resolve().name),
         ("Cells, material points", f"{summary['cells']}, {points}"),
         ("Steps", steps_of(run)),
         ("Limit of the step", str(summary["time_step_limit"])),
@@ -85,13 +85,47 @@ def steps_of(run: Results) -> str:
     return f"{run.summary['steps']} of {' to '.join(ends)} s"
 
 
+def steps_to_go(history: Table, done: float) -> float:
+    """Return how many steps a run takes still, of which a share of 1 is done: by the
+    last part of it. Steps grow with the square root of the depth, as stiffness does."""
+    share = done * history["time_s"] / history["time_s"][-1]
+    depth, step = history["penetration_m"], history["step"]
+    sinks = depth[-1] > depth[0] >= 0
+    path = np.sqrt(depth[0] + (depth[-1] - depth[0]) * share / done) if sinks else share
+    end = np.sqrt(depth[0] + (depth[-1] - depth[0]) / done) if sinks else 1.0
+    before = (1 - RECENT) * done
+    made = step[-1] - np.interp(before, share, step)
+    return float(made / (path[-1] - np.interp(before, share, path)) * (end - path[-1]))
+
+
+def remaining_of(run: Results, done: float) -> float | None:
+    """Return how long a run takes still (s), of which a share of 1 is done: by the
+    time of its steps since its first frame, as the number of points grows somewhat
+    longer; None where that is not known."""
+    history, lock = run.history, run.directory / ".lock"
+    if not lock.is_file() or not 0 < done < 1:
+        return None
+    if not {"step", "penetration_m"} <= set(history) or not history["time_s"][-1] > 0:
+        return None
+    begin = lock.stat().st_mtime - 1.0  # a restart has frames of before
+    written = [(time, files[0].stat().st_mtime) for time, files in run.frames("grid")]
+    start = next(((t, when) for t, when in written if when >= begin), None)
+    if start is None:
+        return None
+    took = (run.directory / "history.csv").stat().st_mtime - start[1]
+    made = history["step"][-1] - np.interp(start[0], history["time_s"], history["step"])
+    if made <= 0 or took <= 0:
+        return None
+    return float(took / made * steps_to_go(history, done) * (1 + GROWTH * (1 - done)))
+
+
 def progress_of(run: Results) -> tuple[float, str]:
     """Return how much of a run is done (%), and in words how long it takes still."""
     known = run.summary.get("progress") or {} if run.scene else {}
-    done = 100 * float(known.get("fraction_done") or 0)
-    left = known.get("remaining_s")
-    words = f"{done:.0f} % done"
-    return done, words + (f", about {duration(left)} left" if left else "")
+    done = float(known.get("fraction_done") or 0)
+    left = remaining_of(run, done) or known.get("remaining_s")
+    words = f"{100 * done:.0f} % done"
+    return 100 * done, words + (f", about {duration(left)} left" if left else "")
 
 
 def status_of(run: Results) -> str:
@@ -104,6 +138,9 @@ def status_of(run: Results) -> str:
         return f"{said}This page reloads itself every {REFRESH} seconds."
     if failure := run.summary.get("failure"):
         return f"Failed: {failure}"
+    if (end := verdict.verdict_of(run).end) is not None:
+        last = run.shown.place(run.history["penetration_m"].max())
+        return f"Computed to {last}, of which {run.shown.place(end, 1)} are feasible."
     reason = run.scene.get("end_reason")
     status = str(run.summary.get("status", "finished"))
     return f"Ended early: {reason}." if reason else f"Status: {status}."
@@ -119,7 +156,7 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
         ("Scene", str(summary["scene_file"])),
         ("Computed", written or "not known"),
         ("Program", f"caisson_mpm {version}, deal.II {library}"),
-    ] + ([("Use", use)] if (use := scene.use_of(run)) else [])
+    ] + ([("Use", use)] if (use := layers.use_of(run)) else [])
 
 
 def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
@@ -136,14 +173,18 @@ def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
 def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
     """Return sketch and tables of caisson and soil."""
     if not run.scene:
-        return {"sketch": "", "caisson": [], "layers": {"rows": []}, "assumed": False}
+        nothing: dict[str, Any] = {"heads": [], "rows": []}
+        empty = {"sketch": "", "caisson": [], "assumed": False}
+        return empty | {"soil": nothing, "layers": nothing}
     depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
-    caisson, layers = scene.caisson_of(run), scene.layers_table(run)
-    cells = [assumed for row in layers["rows"] for _, assumed in row]
+    depth = min(depth, verdict.verdict_of(run).end or depth)
+    caisson, all_numbers = scene.caisson_of(run), layers.layers_table(run)
+    cells = [assumed for row in all_numbers["rows"] for _, assumed in row]
     return {
         "sketch": sketch.of_run(run, depth, found.rest if found else None),
         "caisson": caisson,
-        "layers": layers,
+        "soil": layers.soil_table(run),
+        "layers": all_numbers,
         "assumed": any([*cells, *(item.assumed for item in caisson)]),
     }
 
@@ -157,29 +198,17 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run that did not come to its end is good for; nothing of others."""
+    """Return what a run that did not come to its end is good for; nothing of others,
+    and where suction ends before it."""
     depth = run.history.get("penetration_m")
-    if not has_ended_early(run) or depth is None:
+    if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""
     wanted = scene.end_of(run)
-    of_end = f" of {run.shown.depth(wanted)}" if wanted else ""
-    words = (
-        f"Stopped at {run.shown.depth(depth.max())}{of_end}: no number below holds for"
-        " the end"
-    )
+    end = run.shown.place(depth.max())
+    of_end = f" (planned {run.shown.place(wanted)})" if wanted else ""
+    words = f"Stopped at {end}{of_end}; all values refer to {end}"
     failed = not run.is_running and run.summary.get("failure")
     return f"{words}. {LAST_ROWS}" if failed else f"{words}."
-
-
-def so_far(cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """Return the cards of a run that has not come to its end."""
-    return [
-        (
-            name if name in AS_IT_IS else f"{name.removesuffix(' at the end')} so far",
-            *rest,
-        )
-        for name, *rest in cards
-    ]
 
 
 def css_text(words: str) -> str:
@@ -190,43 +219,41 @@ def css_text(words: str) -> str:
 def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
     is_pull = pull.is_pull(run)
+    said = verdict.verdict_of(run)
     found = None if is_pull else installation.installation_of(run, rate)
-    beside = methods.NOTHING if is_pull else methods.methods_of(run)
+    if found is not None:
+        found = verdict.feasible_part(run, found, said.end, rate)
+    beside = methods.NOTHING if is_pull else methods.methods_of(run, said.end)
     cards = [] if found is None else installation.cards_of(run, found, rate)
     data: dict[str, Any] = {
-        "figures": content.figures_of(run, found),
+        "figures": content.figures_of(run, found, said.end),
         "csv": content.csv_of(run.history),
         "name": run.directory.resolve().name,
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = cards + methods.card_of(beside) if cards else pull.cards_of(run)
-    warnings = warnings_of(summary)
-    warnings["result"] += installation.piping_warning(run, found)
+    cards = pull.cards_of(run) if is_pull else cards + methods.card_of(beside)
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
+        verdict=said,
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
         incomplete=incomplete_of(run),
-        cards=so_far(cards) if run.is_running or has_ended_early(run) else cards,
+        cards=cards,
         computed=what_was_computed(run, found),
         averaged=content.averaged(run),
-        has_bar=found is not None and found.has_bar,
         rate=rate.words,
-        tables=[] if found is None else installation.tables_of(found),
-        has_suction=found is not None and found.has_suction,
-        error=content.error_remark(run),
         figures=data["figures"],
-        units=content.unit_table(run),
+        units=content.unit_table(run, said.end),
         methods=beside,
         method_tables=[t for x in beside["tables"] for t in methods.for_a_page(x)],
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings,
+        warnings=warnings_of(summary),
         entries=scene.entries_of(run) if summary else {},
         defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),
@@ -234,4 +261,21 @@ def html(run: Results, rate: Rate) -> str:
         scripts=[script(name) for name in SCRIPTS],
         own_script=(HERE / "page.js").read_text(encoding="utf-8"),
         data=json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
+        **of_installation(run, found, said.end),
     )
+
+
+def of_installation(
+    run: Results, found: Installation | None, end: float | None
+) -> dict[str, Any]:
+    """Return what the page says of the installation; end: where suction ends (m)."""
+    if found is None:
+        return {"tables": [], "quarters": {}, "bar": ""}
+    planned = scene.end_of(run) or float(found.depth[-1])
+    return {
+        "has_suction": found.has_suction,
+        "has_bar": found.has_bar,
+        "bar": installation.bar_in_words(run, found),
+        "quarters": installation.quarters_of(run, found, end, planned),
+        "tables": installation.tables_of(found),
+    }

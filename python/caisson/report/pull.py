@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import NO_CAPACITY, results_of
+from caisson.evaluation import capacity_in_words, results_of
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
-from caisson.design.reasons import text_of
 from caisson.report.scene import is_sealed
 
 PULL, WATER = "pull", "water beneath lid and tip"
@@ -30,41 +29,41 @@ def largest_pull(run: Results) -> Mapping[str, Any]:
 
 
 def cards_of(run: Results) -> list[tuple[str, ...]]:
-    """Return (name, value, remark) of the largest pull; nothing without one."""
+    """Return (name, value, remark) of what bears the largest pull; nothing without."""
     most = largest_pull(run)
     if not most:
         return []
-
-    def force(name: str) -> str:
-        value = float(f"{run.shown.factor('kN') * most[name] / 1e3:.3g}")
-        return f"{text_of(value)} {run.shown.name('kN')}"
-
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    remark = f"after a rise of {1e3 * most['rise_m']:.3g} mm"
-    if weight:
-        words = run.shown.words(weight, "kN", ".4g")
-        remark += f"; the submerged weight of {words} adds to it"
-    cards: list[tuple[str, ...]] = [
-        ("Largest pull", force("pull_N"), remark),
-        (
-            "Of which friction outside",
-            force("outer_friction_N"),
-            f"inside {force('inner_friction_N')}, tip {force('tip_N')}",
-        ),
-    ]
+    force = {k: run.shown.force(x / 1e3) for k, x in most.items() if k.endswith("_N")}
+    inside = f"inside {force['inner_friction_N']}, tip {force['tip_N']}"
+    cards = [("Of which friction outside", force["outer_friction_N"], inside)]
     if curves.WITH_WATER in run.history:
-        name = f"Of which {WATER}"
-        cards.append((name, force("water_N"), "negative where it presses up"))
-    if not most["is_capacity"]:
-        return [*cards, ("Capacity", f"more than {force('pull_N')}", NO_CAPACITY)]
-    words = most.get("mechanism", "")
-    how, _, what = words.partition(": ")
-    return [*cards, ("What fails", how, what)] if words else cards
+        remark = "negative where it presses up"
+        cards.append((f"Of which {WATER}", force["water_N"], remark))
+    return list[tuple[str, ...]](cards)
+
+
+def sentence_of(run: Results) -> str:
+    """Return the largest pull and what fails in a sentence; nothing without a pull."""
+    most, shown = largest_pull(run), run.shown
+    if not most:
+        return ""
+    how = most.get("mechanism") or capacity_in_words(most)
+    force = shown.force(most["pull_N"] / 1e3)
+    place = shown.place(most["penetration_m"] + most["rise_m"])
+    weight = run.scene.get("submerged_weight_N")
+    adds = "No weight is given, and none is in it."
+    if weight:
+        adds = f"The submerged weight of {shown.force(float(weight) / 1e3)} adds to it."
+    return (
+        f"Pulled from {place}: {force} after a rise of {1e3 * most['rise_m']:.3g} mm"
+        f" ({how}). {adds} This is no design pull-out capacity."
+    )
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Return the rise above the deepest place [n_rows] (mm), and color and values
-    [n_rows] (kN) of the pull and of its parts, by their names."""
+    [n_rows] (kN) of the pull and of its parts, by their names; with an open lid from
+    where it begins to be pulled on, behind the unloading of the soil."""
     history = run.history
     total = history["total_force_N"]
     borne = history.get(curves.WITH_WATER, total)
@@ -77,5 +76,7 @@ def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarra
     rise = 1e3 * (depth.max() - depth)
     if is_sealed(run):
         return rise, parts
-    up = int(np.argmax(depth))  # a way down before it is an installation
-    return rise[up:], {name: (color, x[up:]) for name, (color, x) in parts.items()}
+    begin = int(np.argmax(depth))  # a way down before it is an installation
+    pulls = np.flatnonzero(borne[begin:] < 0)
+    begin += max(int(pulls[0]) - 1, 0) if len(pulls) else 0
+    return rise[begin:], {k: (color, x[begin:]) for k, (color, x) in parts.items()}

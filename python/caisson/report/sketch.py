@@ -2,10 +2,10 @@
 """A section through caisson and ground, to scale and with dimensions, as SVG."""
 import html
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from caisson.results import Results
-from caisson.shown import Units
+from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
 from caisson.report.scene import BODY, end_of, entry_of
 
 LETTER = 7.2  # pixels, the width of a letter
@@ -110,47 +110,38 @@ class Drawing:
         )
 
 
-def about_layer(layer: dict[str, Any], number: int, width: float) -> str:
+def about_layer(run: Results, layer: Layer, width: float) -> str:
     """Return the most important numbers of a layer, as many as are not wider (pixels):
     the table beside it has all."""
-    words = [f"layer {layer.get('layer', number)}"]
-    if layer.get("friction_angle_deg"):
-        words.append(f"φ {float(layer['friction_angle_deg']):.3g}°")
-    if layer.get("cohesion_Pa"):
-        words.append(f"c {float(layer['cohesion_Pa']) / 1e3:.3g} kPa")
-    if layer.get("relative_density") is not None:
-        words.append(f"density {100 * float(layer['relative_density']):.0f} %")
-    weight = float(layer.get("submerged_unit_weight_N_m3") or 0) / 1e3
-    words.append(f"γ′ {weight:.3g} kN/m³")
+    strength = strength_of(run, layer)
+    words = [f"layer {layer.number}", strength.partition(" (")[0]]
+    weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
+    words = [word for word in (*words, f"γ′ {weight}" if weight else "") if word]
     while len(words) > 1 and LETTER * len(", ".join(words)) > width:
         words.pop()
     return ", ".join(words)
 
 
-def draw_ground(
-    drawing: Drawing, layers: list[dict[str, Any]], radius: float, shown: Units
-) -> None:
+def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
     """Draw the layers, with their depths at the right and their numbers between the
     walls of the caisson, where no dimension is."""
-    side = drawing.half_width
-    tops = [float(layer.get("top_depth_m") or 0) for layer in layers]
-    written = -1e9
-    for i, (layer, top) in enumerate(zip(layers, tops)):
-        low = min([*tops[i + 1 :], drawing.bottom], default=drawing.bottom)
-        if top >= drawing.bottom:
+    side, written = drawing.half_width, -1e9
+    for i, layer in enumerate(layers_of(run.scene)):
+        low = min(layer.bottom or drawing.bottom, drawing.bottom)
+        if layer.top >= drawing.bottom:
             break
-        drawing.box(f"soil soil{i % 2}", -side, top, side, low)
-        if drawing.y(top) - written < LEAST_BAND:
+        drawing.box(f"soil soil{i % 2}", -side, layer.top, side, low)
+        if drawing.y(layer.top) - written < LEAST_BAND:
             continue
-        written = drawing.y(top)
+        written = drawing.y(layer.top)
         if i:
             x = drawing.x(side)
-            drawing.text(x + 6, written + 4, shown.length(top))
-        if drawing.scale * (low - top) > LEAST_BAND:
+            drawing.text(x + 6, written + 4, run.shown.length(layer.top))
+        if drawing.scale * (low - layer.top) > LEAST_BAND:
             y = drawing.y(low) - 5
             drawing.labels.append(y)
             width = 2 * drawing.scale * radius - 8
-            words = about_layer(layer, i + 1, width)
+            words = about_layer(run, layer, width)
             drawing.text(drawing.x(0), y, words, "middle")
 
 
@@ -166,7 +157,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     planned = end_of(run) or depth
     bottom = max(depth, planned, 0.1 * length) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
-    draw_ground(drawing, scene.get("layers") or [], radius, shown)
+    draw_ground(drawing, run, radius)
     thick = max(wall, LEAST_WALL / drawing.scale)
     for left in (-radius, radius - thick):
         drawing.wall(left, lid, thick, tip_of(run, depth))

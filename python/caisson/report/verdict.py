@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether a caisson goes in, in a sentence: the first line of a report, the last one of
+a run on the terminal, and "verdict" in run.json.
+
+Suction is feasible down to the depth where the required one reaches the allowable one.
+What a run has behind that depth belongs to a plug that is lifted, or to a pump that
+nobody has: it stands in no card and no maximum.
+"""
+import functools
+import json
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson import curves, disk, evaluation
+from caisson.report import installation, pull
+from caisson.report.installation import BOILING, COMPUTED, NOTHING, PIPING, PUMP
+from caisson.report.installation import Installation, Rate
+from caisson.report.scene import end_of, entry_of, plug_area
+from caisson.results import Results
+
+KEY, END = "verdict", "feasible_to_m"  # in run.json
+REASONS = {
+    COMPUTED: "piping",
+    PIPING: "piping by Houlsby & Byrne",
+    BOILING: "boiling below the lid",
+}
+OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
+LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
+REMEDIES = "A shorter skirt, a larger diameter or a thinner wall helps, too."
+
+
+class Verdict(NamedTuple):
+    """The sentence, and the depth (m) where suction ends, None where it does not."""
+
+    text: str
+    end: float | None = None
+    reason: str = ""
+
+
+def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
+    """Return the depth (m) where the required suction reaches a limit [n] (kPa), and
+    the row at or below it; None where it does not."""
+    beyond = (found.required >= limit) & (found.required > NOTHING)
+    if not beyond.any():
+        return None
+    i = int(np.argmax(beyond))
+    if i and np.isfinite(limit[i - 1]):
+        excess = (found.required - limit)[i - 1 : i + 1]
+        return float(np.interp(0, excess, found.depth[i - 1 : i + 1])), i
+    return float(found.depth[i]), i
+
+
+def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
+    """Return the depth (m) where the required suction reaches the allowable one, and
+    why; None where it does not."""
+    if not found.has_suction:
+        return None
+    if (end := reached(found, found.allowable)) is None:
+        ended = run.scene and run.summary.get("infeasible")
+        return (float(ended["penetration_m"]), str(ended["reason"])) if ended else None
+    name = found.governing(end[1])
+    return float(f"{end[0]:.3g}"), REASONS.get(name, name)
+
+
+def beside_gradient(run: Results) -> str:
+    """Return where the exit gradient of the run itself becomes critical, in words."""
+    found = installation.installation_of(run, Rate())
+    limit = found.limits.get(COMPUTED) if found else None
+    if found is None or limit is None or not np.isfinite(limit).any():
+        return ""
+    if (end := reached(found, limit)) is None:
+        place = found.shown.place(found.depth[-1])
+        return f"; the computed exit gradient allows {place}"
+    place = found.shown.place(end[0], 1)
+    return f"; the computed exit gradient is critical at {place}"
+
+
+def feasible_part(
+    run: Results, found: Installation, end: float | None, rate: Rate = Rate()
+) -> Installation:
+    """Return the installation down to a depth (m), with a row there; else all of it."""
+    if end is None:
+        return found
+    at = curves.down_to(end, found.depth)
+    return installation.installation_of(run, rate, at) or found
+
+
+def needed_at(run: Results, found: Installation, target: float) -> str:
+    """Return what would be needed to reach a depth (m), in a sentence: by required and
+    allowable suction that go on as at the end of what is feasible."""
+    depth = found.depth
+    way = max(LEAST_WAY, OF_WAY * (depth[-1] - depth[0]))
+    rows = (depth >= depth[-1] - way) | (
+        np.arange(len(depth)) >= len(depth) - LEAST_ROWS
+    )
+    rows &= np.isfinite(found.allowable) & (found.required > NOTHING)
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    if rows.sum() < 2 or not weight or not run.scene.get("wall_thickness_m"):
+        return ""
+    required, allowable = (
+        float(np.polyval(np.polyfit(depth[rows], values[rows], 1), target))
+        for values in (found.required, found.allowable)
+    )
+    more = plug_area(run.scene) * (required - allowable)
+    if not more > 0:
+        return ""
+    needed = found.shown.force(float(f"{weight + more:.2g}"))
+    pump = ""
+    if found.governing(len(depth) - 1) == PUMP:
+        pump = f", or a pump for {found.shown.words(required, 'kPa', '.2g')},"
+    place = found.shown.place(target)
+    return f" About {needed} of weight{pump} would be needed at {place}. {REMEDIES}"
+
+
+def of_suction(
+    run: Results, found: Installation, ended: tuple[float, str] | None
+) -> str:
+    """Return the verdict on a caisson with a weight, to a depth (m), by a reason."""
+    shown, depth, planned = found.shown, float(found.depth[-1]), end_of(run)
+    weight = f"weight {shown.force(float(run.scene['submerged_weight_N']) / 1e3)}"
+    if ended is not None:
+        place = shown.place(depth, 1)
+        reason = ended[1] + (
+            beside_gradient(run) if ended[1] == REASONS[PIPING] else ""
+        )
+        words = (
+            f"Feasible to {place}: there the required suction reaches the allowable one"
+            f" ({reason})."
+        )
+        return words + needed_at(run, found, planned or depth)
+    by = f"by {weight} alone: no suction is needed"
+    if found.has_suction:
+        most = int(np.argmax(found.required))
+        text = shown.words(float(found.required[most]), "kPa", ".3g")
+        by = f"by {weight} and suction up to {text}"
+        if bar := installation.bar_at(found, found.required_bounds, most, "kPa"):
+            by += f" ({bar})"
+    place = shown.place(depth)
+    if planned and planned > depth + 1e-3 * max(planned, 1e-3):
+        place += f", as far as the run is (planned {shown.place(planned)}),"
+    return f"Feasible to {place} {by}."
+
+
+def of_force(run: Results, found: Installation) -> str:
+    """Return the verdict on a body that is pushed in."""
+    shown, total = found.shown, found.forces["total_force_N"]
+    parts = [f"{shown.force(float(found.forces[k][-1]))}" for k in found.forces][:3]
+    names = ("tip", "friction inside", "outside")
+    of_which = ", ".join(f"{name} {part}" for name, part in zip(names, parts))
+    how = (
+        "Jacked" if entry_of(run, "Rigid body/Motion") in ("", "prescribed") else "Sunk"
+    )
+    force, effective = total, ""
+    if len(found.with_water):
+        force, effective = (
+            found.with_water,
+            f" with water, {shown.force(total[-1])} eff.",
+        )
+    text = shown.force(float(force[-1])) + effective
+    bounds = found.force_bounds
+    if installation.bar_at(found, bounds, -1, "kN") and bounds is not None:
+        ends = [shown.force(float(side[-1])) for side in (bounds.low, bounds.high)]
+        text += f" (error bar {' to '.join(ends)})"
+    largest, most = float(force.max()), int(np.argmax(force))
+    later = ""
+    if largest > 1.02 * float(force[-1]):
+        later = f" The largest force is {shown.force(largest)} at"
+        later += f" {shown.place(float(found.depth[most]))}."
+    place = shown.place(float(found.depth[-1]))
+    return f"{how} to {place}: {text}, of which {of_which}.{later}"
+
+
+@functools.lru_cache(maxsize=16)
+def verdict_of(run: Results) -> Verdict:
+    """Return the verdict on a run; an empty one where nothing goes in or out."""
+    if pull.is_pull(run):
+        return Verdict(pull.sentence_of(run))
+    found = installation.installation_of(run, Rate())
+    if found is None:
+        return Verdict("")
+    if not len(found.required) or not run.scene.get("submerged_weight_N"):
+        return Verdict(of_force(run, found))
+    ended = end_of_suction(run, found)
+    if ended is None:
+        return Verdict(of_suction(run, found, None))
+    part = feasible_part(run, found, ended[0])
+    return Verdict(of_suction(run, part, ended), *ended)
+
+
+def lines_of(run: Results) -> list[str]:
+    """Return the verdict and the penetration by weight, for the terminal."""
+    rest = evaluation.results_of(run).get("rest_penetration_m")
+    by_weight = rest is not None and f"Rests by weight at {run.shown.depth(rest)}."
+    return [line for line in (verdict_of(run).text, by_weight) if line]
+
+
+def keep(run: Results) -> str:
+    """Write the verdict of a run that has ended into its run.json, with the depth where
+    suction ends; return it."""
+    found, path = verdict_of(run), run.directory / "run.json"
+    if run.is_running or not found.text:
+        return found.text
+    known: dict[str, Any] = json.loads(disk.read_text(path))
+    more = {KEY: found.text} | ({END: found.end} if found.end is not None else {})
+    new = {k: v for k, v in known.items() if k not in (KEY, END)} | more
+    if new != known:
+        disk.write(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
+    return found.text

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The sentence that says whether a caisson goes in, of made-up runs."""
+import html
+import json
+import re
+import unittest
+from typing import Any
+
+from synthetic import write_columns
+from test_report import SCENE, SUMMARY, WithPage, leave_run
+
+import caisson.report as report
+from caisson import evaluation
+from caisson.report import content, installation, verdict
+from caisson.results import Results
+
+PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
+
+
+class Verdicts(WithPage):
+    """A required suction of 10 kPa for each meter below 1.5 m, on 77.29 m2."""
+
+    def run_of(self, **change: Any) -> Results:
+        """Leave a run, and return it."""
+        leave_run(self.path, {**SUMMARY, **change})
+        return Results(self.path)
+
+    def change_history(self, **columns: float) -> None:
+        """Multiply columns with factors; those times 0 are gone."""
+        history = dict(Results(self.path).history)
+        for name, factor in columns.items():
+            values = history.pop(name)
+            if factor:
+                history[name] = factor * values
+        write_columns(self.path / "history.csv", history)
+
+    def test_feasible(self) -> None:
+        text = "Feasible to 4.5 m by weight 1 MN and suction up to 30 kPa."
+        self.assertEqual(verdict.verdict_of(self.run_of()), (text, None, ""))
+
+    def test_end_of_suction(self) -> None:
+        """20 kPa of the pump are reached at 3.5 m; at 4.5 m 10 kPa are missing."""
+        found = verdict.verdict_of(self.run_of(entries=PUMP))
+        self.assertAlmostEqual(found.end or 0, 3.5, places=3)
+        self.assertTrue(found.text.startswith("Feasible to 3.5 m: "))
+        self.assertIn("reaches the allowable one (pump).", found.text)
+        words = (
+            "About 1.8 MN of weight, or a pump for 30 kPa, would be needed at 4.5 m."
+        )
+        self.assertIn(words, found.text)
+
+    def test_end_between_two_rows(self) -> None:
+        """The exit gradient of 0.225 for each meter reaches 0.9 at 4 m, and that of
+        0.24 at 3.75 m."""
+        for factor, depth in ((2.25, 4.0), (2.4, 3.75)):
+            run = self.run_of()
+            self.change_history(exit_gradient_wall=factor, exit_gradient_axis=factor)
+            run = Results(self.path)
+            found = verdict.verdict_of(run)
+            self.assertAlmostEqual(found.end or 0, depth, delta=0.02)
+            self.assertEqual(found.reason, "piping")
+
+    def test_nothing_of_what_is_deeper(self) -> None:
+        """No table, no curve but a gray one, and no card has a number from below, nor
+        is the end of the run called a refusal."""
+        ended = {**SCENE, "end_reason": "the plug fills the caisson (refusal)"}
+        run = self.run_of(entries=PUMP, scene=ended)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        words = html.unescape(re.sub("<[^>]*>", " ", page.split("<script")[0]))
+        self.assertNotIn("refusal", words)
+        self.assertIn("Computed to 4.5 m, of which 3.5 m are feasible.", words)
+        self.assertRegex(words, r"50 %: 2.25 m\s+7.5\s+20\s+pump")
+        self.assertRegex(words, r"100 %: 4.5 m\s+not feasible")
+        rate = installation.Rate()
+        whole = installation.installation_of(run, rate)
+        assert whole is not None
+        part = verdict.feasible_part(run, whole, 3.5, rate)
+        self.assertEqual(part.depth.tolist(), [1, 1.5, 2, 2.5, 3, 3.5])
+        for figure in content.figures_of(run, part, 3.5):
+            for curve in figure["curves"]:
+                if curve.get("thick"):
+                    self.assertLessEqual(max(curve["y"]), 3.5)
+            gray = [c for c in figure["curves"] if c["color"] == content.GRAY]
+            self.assertTrue(gray and all(min(c["y"]) > 3.5 for c in gray))
+
+    def test_end_that_the_program_knows(self) -> None:
+        """It is taken where the curves do not know better."""
+        known = {"penetration_m": 4.2, "reason": "plug lift"}
+        found = verdict.verdict_of(self.run_of(infeasible=known))
+        self.assertEqual(found[1:], (4.2, "plug lift"))
+        found = verdict.verdict_of(self.run_of(infeasible=known, entries=PUMP))
+        self.assertEqual(found.reason, "pump")
+
+    def test_clay(self) -> None:
+        """A run without exit gradients has a page and tables."""
+        self.run_of()
+        self.change_history(
+            exit_gradient_wall=0, exit_gradient_axis=0, critical_gradient=0
+        )
+        run = Results(self.path)
+        self.assertIn("suction up to 30 kPa", verdict.verdict_of(run).text)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertNotIn("exit gradient / critical", page.split("<script")[0])
+        self.assertTrue((self.path / "suction.png").is_file())
+
+    def test_jacked(self) -> None:
+        self.run_of()
+        self.change_history(suction_Pa=0, required_suction_Pa=0)
+        text = verdict.verdict_of(Results(self.path)).text
+        parts = "tip 2.25 MN, friction inside 1.13 MN, outside 1.13 MN."
+        self.assertEqual(text, f"Jacked to 4.5 m: 4.5 MN, of which {parts}")
+
+    def test_kept_in_run_json(self) -> None:
+        """With all other keys, and only once."""
+        run = self.run_of()
+        for _ in range(2):
+            text = verdict.keep(run)
+        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual(known.pop("verdict"), text)
+        self.assertEqual(known, SUMMARY)
+        self.assertEqual(Results(self.path).summary["verdict"], text)
+        verdict.keep(self.run_of(entries=PUMP))
+        self.assertEqual(Results(self.path).summary["feasible_to_m"], 3.5)
+        self.assertEqual(Results(self.path).feasible_to, 3.5)
+        most = evaluation.results_of(Results(self.path))["largest_suction"]
+        self.assertAlmostEqual(most["required_suction_Pa"], 20e3, delta=50)
+
+
+if __name__ == "__main__":
+    unittest.main()
