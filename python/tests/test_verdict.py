@@ -106,6 +106,15 @@ class Verdicts(WithPage):
             run = self.run_of(scene={**SCENE, **scene}, entries=entries)
             self.assertIn(words, verdict.verdict_of(run).text)
 
+    def test_rest_at_the_start(self) -> None:
+        """Where resistance only builds up, the weight has not pushed anything in."""
+        run = self.run_of()
+        begin = float(run.history[evaluation.DEPTH][0])
+        near, far = (installation.rest_in_words(run, begin + w) for w in (0.01, 0.5))
+        place = run.shown.depth(begin)
+        self.assertEqual(near, f"at most {place}, where the run begins")
+        self.assertEqual(far, run.shown.depth(begin + 0.5))
+
     def test_no_weight_for_another_layer(self) -> None:
         """What suction would do in soil that it has not reached is not known."""
         layers = [*SCENE["layers"], {**SCENE["layers"][0], "top_depth_m": 4}]

@@ -212,7 +212,11 @@ def verdict_of(run: Results) -> Verdict:
 def lines_of(run: Results) -> list[str]:
     """Return the verdict and the penetration by weight, for the terminal."""
     rest = evaluation.results_of(run).get("rest_penetration_m")
-    by_weight = rest is not None and f"Rests by weight at {run.shown.depth(rest)}."
+    by_weight = ""
+    if rest is not None:
+        place = installation.rest_in_words(run, rest)
+        at = "" if place.startswith("at most") else "at "
+        by_weight = f"Rests by weight {at}{place}."
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
