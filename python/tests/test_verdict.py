@@ -38,6 +38,16 @@ class Verdicts(WithPage):
         text = "Feasible to 4.5 m by weight 1 MN and suction up to 30 kPa."
         self.assertEqual(verdict.verdict_of(self.run_of()), (text, None, ""))
 
+    def test_no_suction_at_a_quarter(self) -> None:
+        """Of a run to 2.9 m, of 5.8 m planned, the weight suffices at the quarter."""
+        run = self.run_of(entries={"Time/End penetration": "5.8"})
+        history = dict(run.history)
+        down = history["penetration_m"] < 2.85
+        columns = {name: values[down] for name, values in history.items()}
+        write_columns(self.path / "history.csv", columns)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("0 (weight suffices)", page)
+
     def test_end_of_suction(self) -> None:
         """20 kPa of the pump are reached at 3.5 m; at 4.5 m 10 kPa are missing."""
         found = verdict.verdict_of(self.run_of(entries=PUMP))
