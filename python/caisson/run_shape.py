@@ -19,7 +19,6 @@ RUN: dict[str, Any] = {
     **dict.fromkeys(("command", "written", "status", "failure", "installation"), str),
     **dict.fromkeys(("fingerprint", "time_step_limit", "verdict"), str),
     "feasible_to_m": NUMBER,
-    "infeasible": {"penetration_m": NUMBER, "reason": str},
     **dict.fromkeys(("entries", "units", "defaults"), TEXTS),
     **dict.fromkeys(("assumed", "warnings"), [str]),
     **dict.fromkeys(("energies", "progress"), {ANY: OR_NONE}),

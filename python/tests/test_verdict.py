@@ -96,10 +96,42 @@ class Verdicts(WithPage):
     def test_end_that_the_program_knows(self) -> None:
         """It is taken where the curves do not know better."""
         known = {"penetration_m": 4.2, "reason": "plug lift"}
-        found = verdict.verdict_of(self.run_of(infeasible=known))
+        scene = {**SCENE, "infeasible": known}
+        found = verdict.verdict_of(self.run_of(scene=scene))
         self.assertEqual(found[1:], (4.2, "plug lift"))
-        found = verdict.verdict_of(self.run_of(infeasible=known, entries=PUMP))
+        found = verdict.verdict_of(self.run_of(scene=scene, entries=PUMP))
         self.assertEqual(found.reason, "pump")
+        scene = {**SCENE, "infeasible": {"penetration_m": 4.4999, "reason": "boiling"}}
+        found = verdict.verdict_of(self.run_of(scene=scene))
+        self.assertIn("allowable one (boiling below the lid).", found.text)
+
+    def test_end_before_the_planned_one(self) -> None:
+        """The sentence says why the run ended there."""
+        reason = "the plug fills the caisson: it has reached the lid (refusal)"
+        entries = {"Time/End penetration": "6"}
+        for scene, words in (
+            ({}, "Feasible to 4.5 m, as far as the run is (planned 6 m), by"),
+            ({"end_reason": reason}, "There the plug fills the caisson, short of"),
+        ):
+            run = self.run_of(scene={**SCENE, **scene}, entries=entries)
+            self.assertIn(words, verdict.verdict_of(run).text)
+
+    def test_rest_at_the_start(self) -> None:
+        """Where resistance only builds up, the weight has not pushed anything in."""
+        run = self.run_of()
+        begin = float(run.history[evaluation.DEPTH][0])
+        near, far = (installation.rest_in_words(run, begin + w) for w in (0.01, 0.5))
+        place = run.shown.depth(begin)
+        self.assertEqual(near, f"at most {place}, where the run begins")
+        self.assertEqual(far, run.shown.depth(begin + 0.5))
+
+    def test_no_weight_for_another_layer(self) -> None:
+        """What suction would do in soil that it has not reached is not known."""
+        layers = [*SCENE["layers"], {**SCENE["layers"][0], "top_depth_m": 4}]
+        run = self.run_of(scene={**SCENE, "layers": layers}, entries=PUMP)
+        text = verdict.verdict_of(run).text
+        self.assertIn("how much in the soil down to 4.5 m is not known", text)
+        self.assertNotIn("MN of weight", text.partition("there")[2])
 
     def test_clay(self) -> None:
         """A run without exit gradients has a page and tables."""

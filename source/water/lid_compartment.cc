@@ -320,13 +320,16 @@ namespace CaissonMPM
              "skirt";
     if (is_sealed()) // soil may rest on the lid, and leave it again
       return "";
+    // soil that has been piping or lifted is no plug that refuses
+    const std::string refusal = feasibility.place() ? "" : " (refusal)";
     if (touched >= full_lid)
       return "the plug fills the caisson: soil bears on " +
-             percent(full_lid, 2) + " of the lid (refusal)";
+             percent(full_lid, 2) + " of the lid" + refusal;
     if (mudline != nullptr &&
         mudline->mean_height(Mudline::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "
-             "the skirt where the mesh has no lid (refusal)";
+             "the skirt where the mesh has no lid" +
+             refusal;
     const std::string limit = suction_.limit_reached(height_of_lid());
     return limit.empty() ? feasibility.reason_to_end(scene.body.penetration()) :
                            limit;

@@ -490,6 +490,8 @@ class Files(SuggestTest):
             (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
+            ([], ("0: su = 0 kPa",), "su = 0 Pa must be positive"),
+            ([], ("0: su = -20 kPa",), "must be positive"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),
             ([], ("1: Friction angle = 33, Youngs modulus = 1e7",), "begin at 0"),
             ([], (SAND, SAND), "deeper than the one before"),

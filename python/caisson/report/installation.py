@@ -328,6 +328,16 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     return [rows_of(takes), rows_of(margins)]
 
 
+def rest_in_words(run: Results, rest: float) -> str:
+    """Return the penetration by weight: at most that of the start where the resistance
+    only builds up below it, within half a wall thickness."""
+    begin = float(run.history[DEPTH][0])
+    thickness = float(run.scene.get("wall_thickness_m") or 0)
+    if rest - begin < thickness / 2:
+        return f"at most {run.shown.depth(begin)}, where the run begins"
+    return run.shown.depth(rest)
+
+
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
     """Return (name, value, remark) of what matters beside the verdict."""
     cards: list[tuple[str, ...]] = []
@@ -345,7 +355,8 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         return cards + pump_cards(run, found, rate)
     if found.rest is not None:
         remark = f"under {shown.force(weight)} in water" if weight else ""
-        cards.append(("Self-weight penetration", shown.depth(found.rest), remark))
+        place = rest_in_words(run, found.rest)
+        cards.append(("Self-weight penetration", place, remark))
     return cards + pump_cards(run, found, rate)
 
 

@@ -25,6 +25,7 @@ REASONS = {
     PIPING: "piping by Houlsby & Byrne",
     BOILING: "boiling below the lid",
 }
+IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
 OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
 LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
 REMEDIES = "A shorter skirt, a larger diameter or a thinner wall helps, too."
@@ -51,14 +52,22 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
     return float(found.depth[i]), i
 
 
+def end_by_program(run: Results) -> tuple[float, str] | None:
+    """Return the depth (m) where the program itself found that suction ends, and why;
+    None where it did not."""
+    if not (ended := run.scene.get("infeasible")):
+        return None
+    reason = str(ended["reason"])
+    return float(f"{ended['penetration_m']:.3g}"), IN_PROGRAM.get(reason, reason)
+
+
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
     """Return the depth (m) where the required suction reaches the allowable one, and
     why; None where it does not."""
     if not found.has_suction:
         return None
     if (end := reached(found, found.allowable)) is None:
-        ended = run.scene and run.summary.get("infeasible")
-        return (float(ended["penetration_m"]), str(ended["reason"])) if ended else None
+        return end_by_program(run)
     name = found.governing(end[1])
     return float(f"{end[0]:.3g}"), REASONS.get(name, name)
 
@@ -86,6 +95,12 @@ def feasible_part(
     return installation.installation_of(run, rate, at) or found
 
 
+def changes_between(run: Results, top: float, bottom: float) -> bool:
+    """Return whether another layer begins between two depths (m)."""
+    tops = [layer.get("top_depth_m", 0) for layer in run.scene.get("layers", [])]
+    return any(top < depth < bottom for depth in tops)
+
+
 def needed_at(run: Results, found: Installation, target: float) -> str:
     """Return what would be needed to reach a depth (m), in a sentence: by required and
     allowable suction that go on as at the end of what is feasible."""
@@ -105,11 +120,14 @@ def needed_at(run: Results, found: Installation, target: float) -> str:
     more = plug_area(run.scene) * (required - allowable)
     if not more > 0:
         return ""
+    place = found.shown.place(target)
+    if changes_between(run, float(depth[rows][0]), target):
+        known = f"how much in the soil down to {place} is not known"
+        return f" More weight helps; {known}. {REMEDIES}"
     needed = found.shown.force(float(f"{weight + more:.2g}"))
     pump = ""
     if found.governing(len(depth) - 1) == PUMP:
         pump = f", or a pump for {found.shown.words(required, 'kPa', '.2g')},"
-    place = found.shown.place(target)
     return f" About {needed} of weight{pump} would be needed at {place}. {REMEDIES}"
 
 
@@ -138,6 +156,9 @@ def of_suction(
             by += f" ({bar})"
     place = shown.place(depth)
     if planned and planned > depth + 1e-3 * max(planned, 1e-3):
+        if reason := str(run.scene.get("end_reason") or "").partition(":")[0]:
+            end = f"There {reason}, short of the planned {shown.place(planned)}."
+            return f"Feasible to {place} {by}. {end}"
         place += f", as far as the run is (planned {shown.place(planned)}),"
     return f"Feasible to {place} {by}."
 
@@ -191,7 +212,11 @@ def verdict_of(run: Results) -> Verdict:
 def lines_of(run: Results) -> list[str]:
     """Return the verdict and the penetration by weight, for the terminal."""
     rest = evaluation.results_of(run).get("rest_penetration_m")
-    by_weight = rest is not None and f"Rests by weight at {run.shown.depth(rest)}."
+    by_weight = ""
+    if rest is not None:
+        place = installation.rest_in_words(run, rest)
+        at = "" if place.startswith("at most") else "at "
+        by_weight = f"Rests by weight {at}{place}."
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 

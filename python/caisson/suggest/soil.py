@@ -242,6 +242,8 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
             f"--layer: {STRENGTH} is the strength of undrained clay, which has no"
             f" {' and no '.join(wrong)} of its own; leave out either"
         )
+    if re.fullmatch(r"-.*|0*\.?0*(e.*)?", strength.strip()):
+        raise SuggestError(f"--layer: {STRENGTH} = {strength} Pa must be positive")
     found = [
         Entry("Friction angle", "0", " # undrained"),
         Entry("Cohesion", strength, " # s_u"),
