@@ -109,10 +109,11 @@ class Verdicts(WithPage):
         """The sentence says why the run ended there."""
         reason = "the plug fills the caisson: it has reached the lid (refusal)"
         entries = {"Time/End penetration": "6"}
-        for scene, words in (
+        cases: list[tuple[dict[str, Any], str]] = [
             ({}, "Feasible to 4.5 m, as far as the run is (planned 6 m), by"),
             ({"end_reason": reason}, "There the plug fills the caisson, short of"),
-        ):
+        ]
+        for scene, words in cases:
             run = self.run_of(scene={**SCENE, **scene}, entries=entries)
             self.assertIn(words, verdict.verdict_of(run).text)
 
