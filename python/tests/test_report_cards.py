@@ -51,7 +51,7 @@ class Cards(WithPage):
         self.assertEqual(cells[-2:], ["25 (23 to 27)", "30 (about 28 to 32)"])
         self.leave_bar(2.0, 0.1)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("suction up to 30 kPa.</p>", page)
+        self.assertIn("suction up to 30 kPa, at most 57 %", page)
         self.assertIn("The error bar reaches to 2 m.", page)
 
     def test_caisson_that_needs_no_suction(self) -> None:

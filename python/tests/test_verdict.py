@@ -41,6 +41,16 @@ class Verdicts(WithPage):
         )
         self.assertEqual(verdict.verdict_of(self.run_of()), (text, None, ""))
 
+    def test_no_suction_at_a_quarter(self) -> None:
+        """Of a run to 2.9 m, of 5.8 m planned, the weight suffices at the quarter."""
+        run = self.run_of(entries={"Time/End penetration": "5.8"})
+        history = dict(run.history)
+        down = history["penetration_m"] < 2.85
+        columns = {name: values[down] for name, values in history.items()}
+        write_columns(self.path / "history.csv", columns)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("0 (weight suffices)", page)
+
     def test_end_of_suction(self) -> None:
         """20 kPa of the pump are reached at 3.5 m; at 4.5 m 10 kPa are missing."""
         found = verdict.verdict_of(self.run_of(entries=PUMP))
@@ -103,10 +113,11 @@ class Verdicts(WithPage):
         """The sentence says why the run ended there."""
         reason = "the plug fills the caisson: it has reached the lid (refusal)"
         entries = {"Time/End penetration": "6"}
-        for scene, words in (
+        cases: list[tuple[dict[str, Any], str]] = [
             ({}, "Feasible to 4.5 m, as far as the run is (planned 6 m), by"),
             ({"end_reason": reason}, "There the plug fills the caisson, short of"),
-        ):
+        ]
+        for scene, words in cases:
             run = self.run_of(scene={**SCENE, **scene}, entries=entries)
             self.assertIn(words, verdict.verdict_of(run).text)
 

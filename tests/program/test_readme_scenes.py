@@ -54,5 +54,13 @@ class WaterInOtherSoils(SceneTest):
         self.compare(["suction_dense_sand", "jack_silt"])
 
 
+class SuctionInClay(SceneTest):
+    """The same in clay, and in clay over sand."""
+
+    def test_suction(self) -> None:
+        """A total stress, and seepage below clay."""
+        self.compare(["suction_clay", "suction_layers"])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -99,7 +99,9 @@ class Installation:
 
     @property
     def allowable(self) -> np.ndarray:
-        """The least limit (kPa), [n], nan without any."""
+        """The least limit (kPa), [n]; infinite without any."""
+        if not self.limits:
+            return np.full(len(self.depth), np.inf)
         found = np.array(list(self.limits.values()))
         return np.where(np.isnan(found), np.inf, found).min(axis=0)
 
