@@ -134,7 +134,7 @@ def needed_at(run: Results, found: Installation, target: float) -> str:
 
 
 def share_of_allowable(found: Installation) -> str:
-    """Return how much of the allowable suction is required at most, and what limits it."""
+    """Return the largest share of the allowable suction, and what limits it."""
     shares = found.required / found.allowable
     if not (shares > 0).any():
         return ""
