@@ -42,7 +42,7 @@ class Cards(WithPage):
         leave_run(self.path, SUMMARY)
         self.leave_bar(4.4, 0.1)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("suction up to 30 kPa (about 28 to 32 kPa).</p>", page)
+        self.assertIn("suction up to 30 kPa (about 28 to 32 kPa), at most 57 %", page)
         self.assertIn("The error bar reaches to 4 m.", page)
         takes, _ = installation.tables_of(self.installation())
         cells = [
@@ -51,7 +51,7 @@ class Cards(WithPage):
         self.assertEqual(cells[-2:], ["25 (23 to 27)", "30 (about 28 to 32)"])
         self.leave_bar(2.0, 0.1)
         page = report.write(self.path).read_text(encoding="utf-8")
-        self.assertIn("suction up to 30 kPa.</p>", page)
+        self.assertIn("suction up to 30 kPa, at most 57 %", page)
         self.assertIn("The error bar reaches to 2 m.", page)
 
     def test_caisson_that_needs_no_suction(self) -> None:
@@ -88,7 +88,7 @@ class Cards(WithPage):
         text = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
         words = text.split("<script")[0]
         for expected in (
-            "Feasible to 90 mm by weight 20 N and suction up to 600 Pa.",
+            "Feasible to 90 mm by weight 20 N and suction up to 600 Pa, at most 57 %",
             "resistance (N)",
             "depth (mm)",
             "required suction (Pa)",

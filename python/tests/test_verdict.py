@@ -35,7 +35,10 @@ class Verdicts(WithPage):
         write_columns(self.path / "history.csv", history)
 
     def test_feasible(self) -> None:
-        text = "Feasible to 4.5 m by weight 1 MN and suction up to 30 kPa."
+        text = (
+            "Feasible to 4.5 m by weight 1 MN and suction up to 30 kPa, at most 57 % of"
+            " the allowable one (piping, Houlsby & Byrne)."
+        )
         self.assertEqual(verdict.verdict_of(self.run_of()), (text, None, ""))
 
     def test_no_suction_at_a_quarter(self) -> None:
@@ -55,7 +58,8 @@ class Verdicts(WithPage):
         self.assertTrue(found.text.startswith("Feasible to 3.5 m: "))
         self.assertIn("reaches the allowable one (pump).", found.text)
         words = (
-            "About 1.8 MN of weight, or a pump for 30 kPa, would be needed at 4.5 m."
+            "About 1.8 MN of weight in all, or a pump for 30 kPa, would be needed at"
+            " 4.5 m."
         )
         self.assertIn(words, found.text)
 

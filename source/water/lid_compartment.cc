@@ -199,7 +199,9 @@ namespace CaissonMPM
       withstood = plug_strength.find(now);
     if (is_sealed())
       return;
-    const double gradient = flow.scale * std::max(exit.wall, exit.axis);
+    const double gradient = suction() > least_lifting_suction() ?
+                              flow.scale * std::max(exit.wall, exit.axis) :
+                              0.;
     feasibility.update(
       {scene.body.penetration(),
        heave(now) - heave_by_wall(),
@@ -264,16 +266,19 @@ namespace CaissonMPM
             {"gas_expansion_m3", gas}};
   }
 
+  double
+  LidCompartment::least_lifting_suction() const
+  {
+    return least_lifted_share * scene.body.penetration() *
+           withstood.of_block() * scene.soil.unit_weight_of_water();
+  }
+
   bool
   LidCompartment::carries_soil(const WaterFlow &flow) const
   {
-    // The gradient of soil that gives off hardly any water is noise, and less
-    // suction than this lifts no soil by its flow.
-    const double least = least_lifted_share * scene.body.penetration() *
-                         withstood.of_block() *
-                         scene.soil.unit_weight_of_water();
-    return suction() > least && flow.scale * std::max(exit.wall, exit.axis) >
-                                  near_critical * withstood.of_block();
+    return suction() > least_lifting_suction() &&
+           flow.scale * std::max(exit.wall, exit.axis) >
+             near_critical * withstood.of_block();
   }
 
   void

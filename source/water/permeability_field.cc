@@ -40,6 +40,7 @@ namespace CaissonMPM
             const auto        &g = grid.geometry(cell);
             const unsigned int i =
               soil.material_at(std::min(0., g.bottom_left));
+            is_clay[cell]      = undrained[i];
             const double k     = faster * soil.material(i).permeability;
             permeability[cell] = {k * soil.material(i).anisotropy, k};
             volume             = 1.;

@@ -24,6 +24,14 @@ namespace CaissonMPM
   UndrainedSuction::reinit()
   {
     SteadySeepage::reinit();
+    // the plug would answer to the water beneath the lid with a delay
+    if (lid->is_sealed())
+      throw BadInput(
+        "Water/Suction control is sealed, but Water/Level is " +
+        scene.settings.level_name() +
+        ": the water beneath a sealed lid follows the soil only in a coupled "
+        "run. Set Water/Level = coupled, and the Permeability of clay to 1e-9 "
+        "m/s.");
     if (scene.settings.level == WaterLevel::undrained)
       return;
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)

@@ -162,7 +162,10 @@ namespace CaissonMPM
     if (suction)
       warnings = suction->take_warnings();
     else
-      warn_of_open_lid(0., "Set Water/Suction control = sealed", warnings);
+      warn_of_open_lid(0.,
+                       "Set Water/Level = coupled with a Permeability of 1e-9 "
+                       "m/s, and Suction control = sealed",
+                       warnings);
     extremes.warn(time, place_in_words(), warnings);
     return warnings;
   }

@@ -178,6 +178,7 @@ class BadInput(ProgramTest):
             ({"Soil/Layer 1/Friction angle": 5}, ["Layer 1", "undrained strength"]),
             ({"Grid/Geometry": "plane strain"}, ["suction", "plane strain"]),
             ({"Rigid body/Initial penetration": 0}, ["Initial penetration"]),
+            ({"Water/Suction control": "sealed"}, ["sealed", "Level = coupled"]),
         ]
         for entries, words in cases:
             with self.subTest(entries=entries):

@@ -162,6 +162,10 @@ namespace CaissonMPM
     advance_sealed(const double     dt,
                    const Mudline   &mudline,
                    const WaterFlow &flow);
+    /** The gradient of soil that gives off hardly any water is noise, and less
+     * suction than this lifts no soil by its flow. Units: Pa. */
+    double
+    least_lifting_suction() const;
     /** Whether the flow out of the plug nearly lifts its soil. */
     bool
     carries_soil(const WaterFlow &flow) const;

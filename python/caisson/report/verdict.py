@@ -128,7 +128,20 @@ def needed_at(run: Results, found: Installation, target: float) -> str:
     pump = ""
     if found.governing(len(depth) - 1) == PUMP:
         pump = f", or a pump for {found.shown.words(required, 'kPa', '.2g')},"
-    return f" About {needed} of weight{pump} would be needed at {place}. {REMEDIES}"
+    return (
+        f" About {needed} of weight in all{pump} would be needed at {place}. {REMEDIES}"
+    )
+
+
+def share_of_allowable(found: Installation) -> str:
+    """Return how much of the allowable suction is required at most, and what limits it."""
+    shares = found.required / found.allowable
+    if not (shares > 0).any():
+        return ""
+    i = int(np.nanargmax(shares))
+    return (
+        f", at most {100 * shares[i]:.0f} % of the allowable one ({found.governing(i)})"
+    )
 
 
 def of_suction(
@@ -154,6 +167,7 @@ def of_suction(
         by = f"by {weight} and suction up to {text}"
         if bar := installation.bar_at(found, found.required_bounds, most, "kPa"):
             by += f" ({bar})"
+        by += share_of_allowable(found)
     place = shown.place(depth)
     if planned and planned > depth + 1e-3 * max(planned, 1e-3):
         if reason := str(run.scene.get("end_reason") or "").partition(":")[0]:

@@ -247,6 +247,9 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
     found = [
         Entry("Friction angle", "0", " # undrained"),
         Entry("Cohesion", strength, " # s_u"),
+        # with none, clay that opens at the tip gains volume and the plug heaves too
+        # much; with s_u, soft clay comes off the wall
+        Entry("Tension cut-off", f"0.25*({strength})", f"{ASSUMPTION}: s_u / 4"),
         Entry("Poisson ratio", clay.POISSON, f"{ASSUMPTION}: undrained"),
         clay.modulus_of(strength),
     ]
