@@ -120,7 +120,7 @@ class UserScenes(ProgramTest):
         text = self.run_program(
             SUCCESS, user_scene("tension_after"), *words, entries=entries
         )
-        self.assertIn("Water/Suction control = sealed, there required", text)
+        self.assertIn("Water/Suction control = sealed, there automatic", text)
 
     def test_column(self) -> None:
         path = self.directory()
