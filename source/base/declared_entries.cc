@@ -161,8 +161,9 @@ namespace CaissonMPM
     prm.print_parameters(text,
                          ParameterHandler::JSON |
                            ParameterHandler::KeepDeclarationOrder);
-    Tree tree;
-    boost::property_tree::read_json(text, tree);
+    Tree               tree;
+    std::istringstream readable(as_utf8(text.str()));
+    boost::property_tree::read_json(readable, tree);
     collect(tree, {});
   }
 
