@@ -38,7 +38,8 @@ class Layer(NamedTuple):
 
 
 def tip_layer(layers: Sequence[Layer], h: float) -> int:
-    """Clay down to the top of the next layer; sand has no strength and adhesion."""
+    """Return the number of the layer in which a tip at an embedment h (m) is, at a
+    boundary the upper one."""
     return max([i for i, layer in enumerate(layers) if layer.top < h], default=0)
 
 
