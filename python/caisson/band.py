@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The band of a scene: the same caisson in soil of low, best and high resistance.
+
+Three scenes NAME_low.prm, NAME.prm and NAME_high.prm lie beside each other, and so do
+their results. The one without a suffix is the best estimate; the others may be absent.
+"""
+from pathlib import Path
+
+from caisson.results import Results
+
+LOW, BEST, HIGH = "low", "best", "high"
+ESTIMATES = (LOW, BEST, HIGH)
+SCENE = ".prm"
+
+
+def member_of(best: Path, estimate: str) -> Path:
+    """Return the scene, or the directory of results, of an estimate."""
+    if estimate == BEST:
+        return best
+    name = best.name.removesuffix(SCENE)
+    return best.with_name(f"{name}_{estimate}{best.name[len(name):]}")
+
+
+def band_of(run: Results) -> dict[str, Results]:
+    """Return the runs of the band around a best estimate that exist, by estimate, that
+    run included."""
+    found = {BEST: run}
+    for estimate in (LOW, HIGH):
+        directory = member_of(run.directory, estimate)
+        if (directory / "history.csv").is_file():
+            found[estimate] = Results(directory)
+    return {estimate: found[estimate] for estimate in ESTIMATES if estimate in found}
