@@ -9,6 +9,7 @@ import numpy as np
 
 from caisson.template import template
 from caisson import plot
+from caisson.plot import limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -270,12 +271,13 @@ def of_installation(
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     if found is None:
-        return {"tables": [], "quarters": {}, "bar": ""}
+        return {"tables": [], "quarters": {}, "bar": "", "factors": ""}
     planned = scene.end_of(run) or float(found.depth[-1])
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
+        "factors": limits.sources_of(found.factors, found.limits),
         "quarters": installation.quarters_of(run, found, end, planned),
         "tables": installation.tables_of(found),
     }

@@ -14,12 +14,12 @@ import numpy as np
 
 from caisson import curves, disk, evaluation
 from caisson.report import installation, pull
-from caisson.report.installation import BOILING, COMPUTED, NOTHING, PIPING, PUMP
-from caisson.report.installation import Installation, Rate
+from caisson.plot.limits import BOILING, COMPUTED, LID, PIPING, PUMP
+from caisson.report.installation import NOTHING, Installation, Rate
 from caisson.report.scene import end_of, entry_of, plug_area
 from caisson.results import Results
 
-KEY, END = "verdict", "feasible_to_m"  # in run.json
+KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
 REASONS = {
     COMPUTED: "piping",
     PIPING: "piping by Houlsby & Byrne",
@@ -69,7 +69,10 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
     name = found.governing(end[1])
-    return float(f"{end[0]:.3g}"), REASONS.get(name, name)
+    depth = found.lid if name == LID and found.lid else end[0]
+    return float(f"{depth:.3g}"), found.named(name).replace(
+        name, REASONS.get(name, name)
+    )
 
 
 def beside_gradient(run: Results) -> str:
@@ -139,9 +142,7 @@ def share_of_allowable(found: Installation) -> str:
     if not (shares > 0).any():
         return ""
     i = int(np.nanargmax(shares))
-    return (
-        f", at most {100 * shares[i]:.0f} % of the allowable one ({found.governing(i)})"
-    )
+    return f", at most {100 * shares[i]:.0f} % of the allowable one ({found.named(found.governing(i))})"
 
 
 def of_suction(
@@ -234,15 +235,36 @@ def lines_of(run: Results) -> list[str]:
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
+def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
+    """Return required and allowable suction (Pa) and what governs it, by depth (m)."""
+    found = installation.installation_of(run, Rate())
+    if found is None or not found.limits:
+        return []
+    found = feasible_part(run, found, end)
+    return [
+        {
+            evaluation.DEPTH: float(h),
+            evaluation.SUCTION: 1e3 * float(found.required[i]),
+            "allowable_suction_Pa": 1e3 * float(found.allowable[i]),
+            "governed_by": found.governing(i),
+            "factor": found.factors[found.governing(i)],
+        }
+        for i, h in enumerate(found.depth)
+        if found.governing(i)
+    ]
+
+
 def keep(run: Results) -> str:
     """Write the verdict of a run that has ended into its run.json, with the depth where
-    suction ends; return it."""
+    suction ends and the limits over depth; return it."""
     found, path = verdict_of(run), run.directory / "run.json"
     if run.is_running or not found.text:
         return found.text
     known: dict[str, Any] = json.loads(disk.read_text(path))
     more = {KEY: found.text} | ({END: found.end} if found.end is not None else {})
-    new = {k: v for k, v in known.items() if k not in (KEY, END)} | more
+    if rows := rows_of_limits(run, found.end):
+        more[LIMITS] = rows
+    new = {k: v for k, v in known.items() if k not in (KEY, END, LIMITS)} | more
     if new != known:
         disk.write(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
     return found.text
