@@ -19,7 +19,7 @@ from caisson.plot.forces import (
     penetration,
     smooth,
 )
-from caisson.plot.limits import LID, LIMITS
+from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
 from caisson.shown import Units, units_for
@@ -161,12 +161,14 @@ def limit_curves(found: Installation, bottom: float) -> list[Curve]:
         ends = np.array([0.0, most])
         return line(label, color, ends, np.full(2, place), far=True)
 
-    needed = np.where(found.required > NOTHING, found.allowable, np.nan)
-    shown = [line(ALLOWABLE, WIDE_COLOR, needed, depth, full=True)]
+    needed = found.required > NOTHING
+    needed[:-1] |= needed[1:]
+    allowable = np.where(needed, found.allowable, np.nan)
+    shown = [line(ALLOWABLE, WIDE_COLOR, allowable, depth, full=True)]
     for name, values in found.limits.items():
         if name != LID:
             label, color = found.named(name), LIMITS[name].color
-            shown.append(line(label, color, values, depth, far=True))
+            shown.append(line(label, color, values, depth, far=name == BOILING))
     if found.lid is not None and found.lid <= bottom:
         label = f"{found.named(LID)} at {found.shown.depth(found.lid)}"
         shown.append(across(label, LIMITS[LID].color, found.lid))
@@ -185,12 +187,13 @@ def axis_end(shown: list[Curve]) -> float:
 
     seen = [c for c in shown if not c.get("hidden") and not c.get("far")]
     own, full = (most([c for c in seen if c.get(k)]) for k in ("thick", "full"))
-    return 1.03 * (max(min(most(seen), 1.5 * own), full) if own > 0 else most(seen))
+    wide = (2.0 if full else 1.5) * own
+    return 1.03 * (max(min(most(seen), wide), full) if own > 0 else most(seen))
 
 
 def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
-    """Return which limits are beyond the axis of the curves, and the depth of the lid
-    where it is below a bottom (m), in a sentence."""
+    """Return which limits are beyond the axis of the curves, or are none, and the depth
+    of the lid where it is below a bottom (m), in sentences."""
     words, end = [], axis_end(shown)
     factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
     for name, values in found.limits.items():
@@ -201,7 +204,11 @@ def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> 
             words.append(f"{found.named(name)} at {' to '.join(ends)} {unit}")
     if found.lid is not None and found.lid > bottom:
         words.append(f"{found.named(LID)} at about {found.shown.place(found.lid, 1)}")
-    return f"Beyond the chart: {'; '.join(words)}." if words else ""
+    beyond = f"Beyond the chart: {'; '.join(words)}. " if words else ""
+    absent = absent_of(found.limits) if found.limits else []
+    return (
+        beyond + f"No limit of {'; of '.join(absent)}." if absent else beyond
+    ).strip()
 
 
 def suction_curves(

@@ -79,8 +79,8 @@
     context.restore();
   }
 
-  // The methods widen the axis by at most half of what the run has, the allowable
-  // suction as far as it reaches; content.py has the same end.
+  // The methods widen the axis by at most half of what the run has, limits by all
+  // of it, the allowable suction as far as it reaches; content.py has the same end.
   function limits(curves, upward) {
     let low = 0, high = 0, top = upward ? Infinity : 0, bottom = 0, own = 0, full = 0;
     for (const curve of curves.filter((curve) => curve.far))
@@ -97,7 +97,7 @@
           bottom = Math.max(bottom, curve.y[i]);
         });
     // the largest pull is in the middle
-    if (own > 0) high = upward ? 2 * own : Math.max(Math.min(high, 1.5 * own), full);
+    if (own > 0) high = upward ? 2 * own : Math.max(Math.min(high, (full ? 2 : 1.5) * own), full);
     const wide = (high - low || 1) * 0.03, deep = (bottom - top || 1) * 0.02;
     top = Math.min(top, bottom);
     return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };
