@@ -133,7 +133,8 @@ def limit_suction(
 
     if excess(0.0) >= 0:
         return 0.0
-    most = 2 * (wall.yield_strength * wall.thickness / wall.radius + abs(more))
+    yields = wall.yield_strength * wall.thickness / wall.radius
+    most = 2 * (yields / factor + abs(more))
     return float(brentq(excess, 0.0, most, rtol=1e-6))
 
 

@@ -14,8 +14,8 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, Table
-from caisson.report import content, installation, layers, methods, pull, scene
-from caisson.report import sketch, verdict
+from caisson.report import content, installation, layers, methods, pull, remedies
+from caisson.report import scene, sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
@@ -271,7 +271,8 @@ def of_installation(
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     if found is None:
-        return {"tables": [], "quarters": {}, "bar": "", "factors": ""}
+        names = ("tables", "quarters", "bar", "factors", "remedies")
+        return dict.fromkeys(names, "")
     planned = scene.end_of(run) or float(found.depth[-1])
     return {
         "has_suction": found.has_suction,
@@ -279,5 +280,6 @@ def of_installation(
         "bar": installation.bar_in_words(run, found),
         "factors": limits.sources_of(found.factors, found.limits),
         "quarters": installation.quarters_of(run, found, end, planned),
+        "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),
     }

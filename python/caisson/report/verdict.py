@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves, disk, evaluation
-from caisson.report import installation, pull
-from caisson.plot.limits import BOILING, COMPUTED, LID, PIPING, PUMP
+from caisson.report import installation, pull, remedies
+from caisson.plot.limits import BOILING, COMPUTED, LID, PIPING
 from caisson.report.installation import NOTHING, Installation, Rate
-from caisson.report.scene import end_of, entry_of, plug_area
+from caisson.report.scene import end_of, entry_of
 from caisson.results import Results
 
 KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
@@ -26,9 +26,6 @@ REASONS = {
     BOILING: "boiling below the lid",
 }
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
-OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
-LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
-REMEDIES = "A shorter skirt, a larger diameter or a thinner wall helps, too."
 
 
 class Verdict(NamedTuple):
@@ -98,44 +95,6 @@ def feasible_part(
     return installation.installation_of(run, rate, at) or found
 
 
-def changes_between(run: Results, top: float, bottom: float) -> bool:
-    """Return whether another layer begins between two depths (m)."""
-    tops = [layer.get("top_depth_m", 0) for layer in run.scene.get("layers", [])]
-    return any(top < depth < bottom for depth in tops)
-
-
-def needed_at(run: Results, found: Installation, target: float) -> str:
-    """Return what would be needed to reach a depth (m), in a sentence: by required and
-    allowable suction that go on as at the end of what is feasible."""
-    depth = found.depth
-    way = max(LEAST_WAY, OF_WAY * (depth[-1] - depth[0]))
-    rows = (depth >= depth[-1] - way) | (
-        np.arange(len(depth)) >= len(depth) - LEAST_ROWS
-    )
-    rows &= np.isfinite(found.allowable) & (found.required > NOTHING)
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    if rows.sum() < 2 or not weight or not run.scene.get("wall_thickness_m"):
-        return ""
-    required, allowable = (
-        float(np.polyval(np.polyfit(depth[rows], values[rows], 1), target))
-        for values in (found.required, found.allowable)
-    )
-    more = plug_area(run.scene) * (required - allowable)
-    if not more > 0:
-        return ""
-    place = found.shown.place(target)
-    if changes_between(run, float(depth[rows][0]), target):
-        known = f"how much in the soil down to {place} is not known"
-        return f" More weight helps; {known}. {REMEDIES}"
-    needed = found.shown.force(float(f"{weight + more:.2g}"))
-    pump = ""
-    if found.governing(len(depth) - 1) == PUMP:
-        pump = f", or a pump for {found.shown.words(required, 'kPa', '.2g')},"
-    return (
-        f" About {needed} of weight in all{pump} would be needed at {place}. {REMEDIES}"
-    )
-
-
 def share_of_allowable(found: Installation) -> str:
     """Return the largest share of the allowable suction, and what limits it."""
     shares = found.required / found.allowable
@@ -160,7 +119,7 @@ def of_suction(
             f"Feasible to {place}: there the required suction reaches the allowable one"
             f" ({reason})."
         )
-        return words + needed_at(run, found, planned or depth)
+        return words + remedies.sentence_of(run, found, planned or depth)
     by = f"by {weight} alone: no suction is needed"
     if found.has_suction:
         most = int(np.argmax(found.required))
