@@ -44,7 +44,7 @@ class Remedies(WithPage):
         self.assertEqual(rows["weight in water"], words)
         self.assertEqual(rows["pump"], "a pump for 30 kPa instead of 20 kPa")
         self.assertTrue(rows["stop earlier"].startswith("at 3.5 m: a skirt of 3.7 m"))
-        self.assertIn("End penetration=3.43", rows["cycles of force"])
+        self.assertIn("end a run at 3.43 m", rows["cycles of force"])
 
     def test_sizes_by_hand(self) -> None:
         """At 4.5 m the resistance is 1000 + 30 * 77.29 = 3319 kN, of which the tip has

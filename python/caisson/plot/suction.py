@@ -117,9 +117,9 @@ def columns_of(history: Table, name: str) -> tuple[np.ndarray, np.ndarray]:
     return history["penetration_m"][rows], history[name][rows]
 
 
-def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> None:
+def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> list[str]:
     """Draw the limits of the suction [n] (kPa) at depths [n] (m), each by its factor,
-    over their least; name those that are out of the range."""
+    over their least; return those that are out of the range, in words."""
     factors, beyond = limits.factors_of(run), list[str]()
     for name, limit in found.items():
         label, known = limits.with_factor(name, factors[name]), limit[limit < np.inf]
@@ -133,14 +133,13 @@ def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> No
         else:
             ends = (np.nanmin(known), np.nanmax(known))
             texts = dict.fromkeys(f"{v:.0f}" for v in ends)
-            beyond.append(f"{label}: {' to '.join(texts)} kPa")
-    if beyond:
-        text = "\n".join(beyond)
-        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
+            beyond.append(f"{label} at {' to '.join(texts)} kPa")
+    return beyond
 
 
-def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
-    """Draw the suction of the run, of the methods, and its limits."""
+def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
+    """Draw the suction of the run, of the methods, and its limits; return which limits
+    are out of the range."""
     history = run.history
     depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
@@ -169,9 +168,10 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     lines += [s / 1e3 for s in known if has_line(s)]
     most = max(np.nanmax(line, initial=1e-3) for line in [*lines, allowable])
     axes.set_xlim(-0.02 * most, 1.08 * most)
-    draw_limits(axes, run, at, found)
+    beyond = draw_limits(axes, run, at, found)
     draw_rest(axes, history, answers)
     axes.set_xlabel("suction (kPa)")
+    return f"Beyond the picture: {'; '.join(beyond)}." if beyond else ""
 
 
 def draw_gradients(axes: Axes, run: Results) -> None:
@@ -269,7 +269,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure = Figure(figsize=(14 if seeps else 10, 6.5))
     panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
-    draw_suction(panels[0], run, answers)
+    beyond = draw_suction(panels[0], run, answers)
     if seeps:
         draw_gradients(panels[1], run)
     draw_heave(panels[-1], run)
@@ -281,7 +281,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
         axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)
-    text = "\n".join(filter(None, [caption(answers, site), about]))
+    text = "\n".join(filter(None, [beyond, caption(answers, site), about]))
     with_note(figure, text)
     picture = directory / "suction.png"
     in_units(figure, run.shown)

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson import paths
 from caisson.design import shell
 from caisson.plot import limits, suction_methods, theory
 from caisson.report.installation import NOTHING, Installation
@@ -228,14 +227,12 @@ def size_row(planned: Planned, name: str, found: float | None, why: str) -> list
     return [name, "; ".join(filter(None, [why, text]))]
 
 
-def cycles_row(run: Results, depth: float) -> str:
-    """Return the runs that tell what cycles of force do."""
-    command = "caisson run" if paths.INSTALLED else "scripts/run"
-    file = run.summary.get("scene_file") or "FILE.prm"
+def cycles_row(depth: float) -> str:
+    """Return the runs that tell what cycles of force do; depth: where suction ends."""
     return (
-        f'no arithmetic; {command} {file} --set "Time/End penetration={0.98 * depth:.3g}"'
-        ", and after it (Installation/Directory) one with Motion = dropped, Suction"
-        " control = table and a Force table"
+        f"no arithmetic: end a run at {0.98 * depth:.3g} m, and go on from it"
+        " (Installation/Directory) with Motion = dropped, Suction control = table,"
+        " Inertia tolerance = none and a Force table"
     )
 
 
@@ -324,6 +321,6 @@ def table_of(run: Results, found: Installation, end: float | None) -> dict[str, 
         rows = [["weight, wall, diameter, pump", planned]]
     else:
         rows = sizes_rows(planned) + skirt_row(planned)
-    rows += [["stop earlier", stop], ["cycles of force", cycles_row(run, end)]]
+    rows += [["stop earlier", stop], ["cycles of force", cycles_row(end)]]
     heads = ["one of these", f"to reach {shown.place(target)}, by arithmetic"]
     return {"heads": heads, "rows": rows}
