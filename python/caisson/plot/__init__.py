@@ -17,9 +17,10 @@ def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
     forces.png, with suction also suction.png, for a caisson that goes down also
-    design.csv, walls.png and, with suction, wall_pressure.csv, and where there are frames stress.png, displacement.png
-    and, where the soil changes its volume, void_ratio.png, and with excess pore
-    pressure pore_pressure.png. Raises ResultsError.
+    design.csv, walls.png and, with suction, wall_pressure.csv, and where there are
+    frames stress.png, displacement.png and, where the soil changes its volume,
+    void_ratio.png, and with excess pore pressure pore_pressure.png. Raises
+    ResultsError.
     """
     from matplotlib import rc_context
 

@@ -9,7 +9,7 @@ lid: no suction helps from that depth on. The wall buckles (design/shell).
 """
 from math import inf
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -73,7 +73,7 @@ STEEL = {  # entries of section Design: default
 def number_of(run: Results, name: str, default: float) -> float:
     """Return an entry of section Design; the default in files of earlier versions."""
     summary = run.summary if run.scene else {}
-    path, known = f"Design/{name}", {}
+    path, known = f"Design/{name}", dict[str, Any]()
     for part in ("defaults", "entries"):
         known |= summary.get(part) or {}
     try:

@@ -3,7 +3,8 @@
 is allowed, and the pump.
 
 The allowable suction is the least of the limits of plot/limits, each by its factor.
-The pump moves the water that the lid displaces at a stated rate of penetration and that which seeps through the plug; a run is usually far faster than a caisson.
+The pump moves the water that the lid displaces at a stated rate of penetration and that
+which seeps through the plug; a run is usually far faster than a caisson.
 """
 import re
 from dataclasses import dataclass, field

@@ -101,7 +101,8 @@ def share_of_allowable(found: Installation) -> str:
     if not (shares > 0).any():
         return ""
     i = int(np.nanargmax(shares))
-    return f", at most {100 * shares[i]:.0f} % of the allowable one ({found.named(found.governing(i))})"
+    name = found.named(found.governing(i))
+    return f", at most {100 * shares[i]:.0f} % of the allowable one ({name})"
 
 
 def of_suction(
@@ -220,7 +221,9 @@ def keep(run: Results) -> str:
     if run.is_running or not found.text:
         return found.text
     known: dict[str, Any] = json.loads(disk.read_text(path))
-    more = {KEY: found.text} | ({END: found.end} if found.end is not None else {})
+    more: dict[str, Any] = {KEY: found.text} | (
+        {END: found.end} if found.end is not None else {}
+    )
     if rows := rows_of_limits(run, found.end):
         more[LIMITS] = rows
     new = {k: v for k, v in known.items() if k not in (KEY, END, LIMITS)} | more
