@@ -25,6 +25,8 @@ MODULES = {
 TABLES = {"pandas": "python3-pandas"}
 # of cone tests in workbooks (.xlsx), without which all else works
 WORKBOOKS = {"openpyxl": "python3-openpyxl"}
+# of studies on many machines (caisson.dask_runs)
+DASK = {"distributed": "python3-distributed"}
 JAVASCRIPT = Path("/usr/share/javascript")
 # of a report, which has a copy of them
 SCRIPTS = {
