@@ -1,8 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Low, best and high estimate: their layers, and the page that has all of them."""
 import argparse
+import re
 import unittest
+from pathlib import Path
 
+import numpy as np
+from matplotlib.figure import Figure
+from synthetic import write_columns
+from test_report import SCENE, SUMMARY, WithPage, leave_run
+
+import caisson.report as report
+from caisson.band import BEST, HIGH, LOW, band_of, member_of
+from caisson.commands import run_band
+from caisson.plot import band as plotted
+from caisson.report import content, verdict
+from caisson.report.band import required_at
+from caisson.results import Results
+from caisson.runner import RunError
 from caisson.suggest import band
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
@@ -75,6 +90,107 @@ class Estimates(unittest.TestCase):
         for words, given in cases:
             with self.subTest(words), self.assertRaisesRegex(SuggestError, words):
                 self.ends(SOIL, **given)
+
+
+class Page(WithPage):
+    """The page of a caisson whose required suction is 10 kPa for each meter below
+    1.5 m, with 0.7 times that force in soft soil and 1.5 times that in hard soil."""
+
+    FACTORS = {LOW: 0.7, BEST: 1.0, HIGH: 1.5}
+    PUMP = {"Water/Largest suction": "40e3", "Time/End penetration": "4.4"}
+
+    def leave_band(self) -> Results:
+        """Leave three runs; return the best one."""
+        best = self.path / "own"
+        for estimate, factor in self.FACTORS.items():
+            directory = member_of(best, estimate)
+            leave_run(directory, {**SUMMARY, "entries": self.PUMP})
+            history = dict(Results(directory).history)
+            depth = history["penetration_m"]
+            for name in history:
+                history[name] = history[name] * (factor if name.endswith("_N") else 1)
+            history["required_suction_Pa"] = 1e4 * (factor * depth - 1.5)
+            history["suction_Pa"] = np.maximum(history["required_suction_Pa"], 0)
+            write_columns(directory / "history.csv", history)
+            if estimate != BEST:
+                verdict.keep(Results(directory))
+        return Results(best)
+
+    def test_verdict_and_penetration_by_weight(self) -> None:
+        """40 kPa of the pump are needed at 3.67 m in hard soil, and nowhere else."""
+        run = self.leave_band()
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        (text,) = re.findall('<p class="verdict">(.*?)</p>', page)
+        self.assertIn("Feasible to 4.5 m by weight 1 MN and suction up to 30", text)
+        ends = (
+            "With low resistance to 4.5 m, suction up to 16.5 kPa; with high"
+            " resistance to 3.7 m (pump)."
+        )
+        self.assertTrue(text.endswith(ends), text)
+        self.assertTrue("low resistance: 2.14 m; high resistance: 1.00 m" in page)
+
+    def test_quarters(self) -> None:
+        """At 1.1, 2.2, 3.3 and 4.4 m, each by its own run."""
+        run = self.leave_band()
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        (table,) = re.findall('<table class="quarters">(.*?)</table>', page, re.S)
+        heads = re.findall("<th.*?>(.*?)</th>", table)
+        self.assertEqual(heads[1:4], ["required suction (kPa), low", "best", "high"])
+        rows = [re.findall("<td>(.*?)</td>", row) for row in table.split("<tr>")[2:]]
+        self.assertEqual(rows[0][1:4], ["0", "0 (weight suffices)", "1.5"])
+        self.assertEqual(rows[1][1:4], ["0.4", "7", "18"])
+        self.assertEqual(rows[2][1:4], ["8.1", "18", "34.5"])
+        self.assertEqual(rows[3][1:4], ["15.8", "29", "not feasible"])
+
+    def test_area_of_the_charts(self) -> None:
+        """It has the ends of all three, down to where the first of them ends."""
+        run = self.leave_band()
+        for column, slope, by_weight in (
+            ("required_suction_Pa", 10, 15),
+            ("total_force_N", 1e3, 0),
+        ):
+            depth, low, high = plotted.range_of(run, column) or [np.empty(0)] * 3
+            self.assertAlmostEqual(depth[-1], 3.67, delta=0.03)
+            expected = [
+                np.maximum(slope * factor * depth - by_weight, 0)
+                for factor in (self.FACTORS[LOW], self.FACTORS[HIGH])
+            ]
+            inner = depth > 0.7  # means end at the ends of a curve
+            for values, known in zip((low, high), expected):
+                error = np.abs(values - known)[inner].max()
+                self.assertLess(error, 1e-2 * slope)
+        axes = Figure().subplots()
+        self.assertEqual(len(plotted.draw(axes, run, "total_force_N", "total")), 2)
+        (curve,) = content.range_curve(run, "total_force_N", "total")
+        self.assertTrue(curve["shade"])
+
+    def test_only_of_this_caisson(self) -> None:
+        """Another caisson of that name, and none, leave the page as it is."""
+        run = self.leave_band()
+        other = {**SUMMARY, "scene": {**SCENE, "diameter_m": 5.0}}
+        leave_run(member_of(run.directory, HIGH), other)
+        self.assertEqual(list(band_of(run)), [LOW, BEST])
+        leave_run(member_of(run.directory, LOW), other)
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        self.assertNotIn("low resistance", page)
+        self.assertEqual(plotted.range_of(run, "total_force_N"), None)
+
+    def test_depth_out_of_reach(self) -> None:
+        """Before the start, and below the end."""
+        run = self.leave_band()
+        words = [required_at(run, depth, run.shown) for depth in (0.4, 4.6)]
+        self.assertEqual(words, ["before the start", "not reached"])
+
+
+class Runs(unittest.TestCase):
+    """caisson run --band."""
+
+    def test_refusals(self) -> None:
+        """A line says what to do."""
+        with self.assertRaisesRegex(RunError, "takes --set, --restart and --overwrite"):
+            run_band.options_of(["--restart", "--output-directory", "there"])
+        with self.assertRaisesRegex(RunError, "caisson suggest --spread, or --low"):
+            run_band.scenes_of(Path(__file__))
 
 
 if __name__ == "__main__":
