@@ -36,6 +36,7 @@ LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is nois
 COMPUTED = "exit gradient computed"
 PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
 NOTHING = 5e-4  # of a unit of the tables
+NEARLY = 0.01  # of the largest flow
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
@@ -370,11 +371,17 @@ def quarters_of(
     shown, reached = found.shown, float(found.depth[-1])
     wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
     at = wanted[(wanted <= reached + 1e-3 * planned) & (wanted > run.history[DEPTH][0])]
-    known = installation_of(run, Rate(), at) if len(at) else None
     absent = "not feasible" if end is not None else "not reached"
+    places = {
+        depth: f"{share} %: {shown.place(depth)}"
+        for share, depth in zip((25, 50, 75, 100), wanted)
+    }
+    if end is not None:
+        at = np.union1d(at, end)
+        places[end] = f"feasible: {shown.place(end)}"
+    known = installation_of(run, Rate(), at) if len(at) else None
     rows = []
-    for share, depth in zip((25, 50, 75, 100), wanted):
-        place = f"{share} %: {shown.place(depth)}"
+    for depth, place in sorted(places.items()):
         if known is None or depth not in at:
             rows.append(
                 [place, absent if depth > reached else "before the start", "", ""]
@@ -386,7 +393,8 @@ def quarters_of(
             needs = "0 (weight suffices)"
         limit = text_of(shown.factor("kPa") * float(known.allowable[i]))
         rows.append([place, needs, limit, known.governing(i)])
-    heads = ["penetration", "required suction (kPa)", "allowable (kPa)", "governed by"]
+    of_planned = f"penetration, of {shown.length(planned)} planned"
+    heads = [of_planned, "required suction (kPa)", "allowable (kPa)", "governed by"]
     return {"heads": [shown.named(head) for head in heads], "rows": rows}
 
 
@@ -397,7 +405,9 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
         if found.has_suction
         else np.full(len(found.flow), True)
     )
-    most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
+    flow = np.where(pumped, found.flow, -np.inf)
+    # of flows that are nearly the largest one, that against the most suction
+    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
     words = (
         f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
     )

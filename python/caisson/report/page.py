@@ -2,6 +2,7 @@
 """The page of a report: contents, pictures and scripts in one file."""
 import base64
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ PICTURES = {
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
 }
+AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 CHARTS = ("walls",)  # pictures of lines, not of fields
 LAST_ROWS = "The run failed: do not use the last rows."
 
@@ -159,14 +161,19 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
     ] + ([("Use", use)] if (use := layers.use_of(run)) else [])
 
 
-def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
-    """Return the warnings by their rank; older files have none, so that all count."""
+def warnings_of(
+    summary: dict[str, Any], end: float | None = None
+) -> dict[str, list[str]]:
+    """Return the warnings by their rank, without those about what is deeper than the
+    end of suction (m); older files have no ranks, so that all count."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     ranked = (summary.get("results") or {}).get("warnings")
     if ranked is None:
         return {**found, "result": list(summary.get("warnings", []))}
     for warning in ranked:
-        found[warning["rank"]].append(warning["text"])
+        place = AT_PENETRATION.search(warning["text"])
+        if end is None or place is None or float(place[1]) <= end:
+            found[warning["rank"]].append(warning["text"])
     return found
 
 
@@ -257,7 +264,7 @@ def html(run: Results, rate: Rate) -> str:
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings_of(summary),
+        warnings=warnings_of(summary, said.end),
         entries=scene.entries_of(run) if summary else {},
         defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),

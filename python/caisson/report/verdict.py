@@ -8,6 +8,7 @@ nobody has: it stands in no card and no maximum.
 """
 import functools
 import json
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ REASONS = {
 }
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
 OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
+FINER = 21  # rows between two of the tables
 LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
 REMEDIES = "A shorter skirt, a larger diameter or a thinner wall helps, too."
 
@@ -37,6 +39,13 @@ class Verdict(NamedTuple):
     text: str
     end: float | None = None
     reason: str = ""
+
+
+def rounded_down(depth: float) -> float:
+    """Return a depth (m) in whole decimeters, or with two digits below 1 m; a
+    twentieth less than one of them counts as that one."""
+    step = min(0.1, 10.0 ** (math.floor(math.log10(depth)) - 1)) if depth > 0 else 0.1
+    return round(step * math.floor(depth / step + 0.05), 9)
 
 
 def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
@@ -58,7 +67,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
-    return float(f"{ended['penetration_m']:.3g}"), IN_PROGRAM.get(reason, reason)
+    return rounded_down(ended["penetration_m"]), IN_PROGRAM.get(reason, reason)
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
@@ -68,8 +77,13 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
         return None
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
+    if i := end[1]:  # rows are far apart where a tip comes into another layer
+        between = np.linspace(found.depth[i - 1], found.depth[i], FINER)
+        finer = installation.installation_of(run, Rate(), between)
+        if finer and (sharper := reached(finer, finer.allowable)):
+            found, end = finer, sharper
     name = found.governing(end[1])
-    return float(f"{end[0]:.3g}"), REASONS.get(name, name)
+    return rounded_down(end[0]), REASONS.get(name, name)
 
 
 def beside_gradient(run: Results) -> str:
