@@ -246,17 +246,28 @@ def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
     """Return what the template takes of weight and water. Where all of the soil is
-    undrained clay no water flows. soil: the layers with all of their entries."""
+    undrained clay no water flows, and clay with a law of effective stress keeps its
+    water. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
     clays = list(map(is_clay, layers))
-    if not all(clays):
+    of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
+    if all(c or e for c, e in zip(clays, of_effective_stress)):
+        level = "undrained" if any(of_effective_stress) else "drained"
+    else:
         refuse_quick_clay(reached(options, layers))
         soil = with_permeability(soil)
+        level = "seepage"
+        if any(of_effective_stress):
+            raise SuggestError(
+                f"layer {1 + of_effective_stress.index(True)}: {CAM_CLAY} beside sand"
+                " is for a coupled run, which takes a slower penetration. Give the"
+                " clay as su, or write the scene with Water/Level = coupled by hand"
+            )
     return {
         "weight": options.weight,
         "water_depth": options.water_depth,
-        "flows": not all(clays),
+        "water_level": level,
         "has_clay": any(clays),
         "layers": soil,
     }
