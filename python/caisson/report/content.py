@@ -10,6 +10,7 @@ from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
 from caisson.plot import design, suction_methods, theory
+from caisson.plot.band import LABEL, range_of
 from caisson.plot.forces import (
     COLORS,
     WATER_COLOR,
@@ -115,6 +116,16 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
     return found
 
 
+def range_curve(run: Results, column: str, name: str) -> list[Curve]:
+    """Return the area between low and high resistance; nothing without a band."""
+    found = range_of(run, column)
+    if found is None:
+        return []
+    depth, low, high = found
+    area = band(f"{name}, {LABEL}", "black", low, high, depth)
+    return [area | {"shade": True}]
+
+
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     """Return the forces (kN) over depth (m) with their error bars and the range of
     Houlsby & Byrne."""
@@ -127,6 +138,7 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
+    found += range_curve(run, column_of("total"), "total")
     for name, color in COLORS.items():
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
@@ -178,7 +190,8 @@ def limit_curves(found: Installation) -> list[Curve]:
 
 def axis_end(shown: list[Curve]) -> float:
     """Return where the axis of the suction ends (kPa), as in limits() of page.js."""
-    most = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
+    own = [c for c in shown if c.get("thick") or c.get("shade")]
+    most = max(x for c in own for x in [*c["x"], *c.get("to", [])] if x is not None)
     ends = [
         x
         for curve in shown
@@ -209,6 +222,7 @@ def suction_curves(
     """Return the required suction (kPa) over depth (m), beside methods and limits."""
     history, depth = run.history, run.history["penetration_m"]
     shown = [*method_suctions(run), *limit_curves(found)]
+    shown += range_curve(run, "required_suction_Pa", "required")
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
         at, *ends = down_to(end, *bar)

@@ -14,7 +14,7 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, Table
-from caisson.report import content, installation, layers, methods, pull, scene
+from caisson.report import band, content, installation, layers, methods, pull, scene
 from caisson.report import sketch, verdict
 from caisson.report.installation import Installation, Rate
 
@@ -239,12 +239,16 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = pull.cards_of(run) if is_pull else cards + methods.card_of(beside)
+    cards = (
+        pull.cards_of(run)
+        if is_pull
+        else band.cards_of(run, cards) + methods.card_of(beside)
+    )
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
-        verdict=said,
+        verdict=said if is_pull else band.verdict_with(run),
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
@@ -283,6 +287,6 @@ def of_installation(
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
-        "quarters": installation.quarters_of(run, found, end, planned),
+        "quarters": band.quarters_of(run, found, end, planned),
         "tables": installation.tables_of(found),
     }
