@@ -29,11 +29,12 @@ GROUPS: Groups = {
             "draw or print the forces of several runs",
         ),
         "export": ("caisson.export.command", "give the soil to other programs"),
+        "log": ("caisson.log", "compare a run with the log of the vessel"),
     },
 }
 COMMANDS = commands_of(GROUPS)
 # those that import what they need only after they have computed or read something
-LATE = {"cpt", "plot", "report", "export"}
+LATE = {"cpt", "plot", "report", "export", "log"}
 ELSEWHERE = (
     "Verification, validation, stability and speed are commands of scripts/lab, and"
     " tools for developers of tools/workshop."
