@@ -100,7 +100,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
-    text = "write a study, too: of angle or density, or of a cone test's estimates"
+    text = (
+        "write a study, too: of angle or density, of a cone test's estimates, or with"
+        " --spread of twenty runs for P5, P50 and P95"
+    )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
     band.add_arguments(parser)
@@ -325,6 +328,27 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
     )
 
 
+def spread_study_of(
+    options: argparse.Namespace, layers: Sequence[Layer], known: Mapping[str, str]
+) -> str:
+    """Return the text of a study of twenty runs in soil of --spread. Raises
+    SuggestError."""
+    deep = reached(options, layers)
+    follows = options.wall_friction is None and not any(map(is_by_density, deep))
+    wall = wall_friction_of(None, deep).value if follows else "0"
+    return template(HERE / "spread_study.toml.jinja").render(
+        scene=os.path.relpath(options.file, options.study.parent),
+        spread=options.spread,
+        factors=band.factors_of(
+            texts_of(options),
+            layers,
+            known,
+            band.spread_of(options.spread),
+            "" if wall == "0" else wall,
+        ),
+    )
+
+
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     """Return the text of a study with five friction angles or, of sand by its density,
     relative densities of each layer; clay becomes stronger in step. Raises SuggestError
@@ -536,9 +560,12 @@ def write(options: argparse.Namespace) -> None:
         texts[file] = scene_of(options, soil, file, words)
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
-        texts[options.study] = (
-            soil_study_of(options, found) if found else study_of(options, layers)
-        )
+        if options.spread:
+            texts[options.study] = spread_study_of(options, layers, known)
+        else:
+            texts[options.study] = (
+                soil_study_of(options, found) if found else study_of(options, layers)
+            )
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
         texts[table] = cone_file.text_of(found.test)
     with disk.all_or_none(options.overwrite):
