@@ -166,7 +166,7 @@ def of_texts(
     in words. Raises SuggestError."""
     found, used = dict[str, list[Layer]](), set[str]()
     spread = spread_of(options.spread) if options.spread else {}
-    for estimate in options.estimates:
+    for estimate in estimates_of(options):
         if spread:
             change = spread_by(spread, SIGNS[estimate], known, used)
         else:
