@@ -51,16 +51,16 @@ class Governing(WithPage):
 
     def check(self, run: Results, name: str, depth: float, words: str) -> None:
         """The suction ends at a depth (m) by a limit, in table, page and run.json."""
-        said = verdict.verdict_of(run)
+        said, depth = verdict.verdict_of(run), limits.rounded_down(depth)
         self.assertEqual(said.reason, words)
-        self.assertAlmostEqual(said.end or 0, depth, delta=0.03)
+        self.assertAlmostEqual(said.end or 0, depth, places=6)
         page = report.write(self.path).read_text(encoding="utf-8")
         text = html.unescape(re.sub("<[^>]*>", " ", page.split("<script")[0]))
         self.assertRegex(text, rf"governed by[^0-9]*{re.escape(name)}")
         verdict.keep(run)
         known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
         self.assertEqual(known["limits"][-1]["governed_by"], name)
-        self.assertAlmostEqual(known["limits"][-1]["penetration_m"], depth, delta=0.03)
+        self.assertAlmostEqual(known["limits"][-1]["penetration_m"], depth, places=6)
         colors = [limit.color for limit in limits.LIMITS.values()]
         self.assertEqual(len(set(colors)), len(colors))
 

@@ -138,6 +138,20 @@ class Layers(SuggestTest):
             )
         self.assertEqual(entries["Soil/Layer 1/Adhesion factor of the walls"], "0.4")
 
+    def test_clay_by_effective_stress_keeps_its_water(self) -> None:
+        """With suction it is undrained; beside sand it is refused."""
+        cam_clay = "Law = modified Cam clay, e = 1.2"
+        for layers in ((f"0: {cam_clay}",), (f"0: {cam_clay}", "3: su = 30 kPa")):
+            path = self.made_directory(f"of_{len(layers)}") / "own.prm"
+            self.suggest(path, "--weight", "300kN", layers=layers)
+            entries = read_parameters([str(path)])
+            self.assertEqual(entries["Water/Level"], "undrained")
+            self.run_program(SUCCESS, path, "--validate", "--strict")
+        path = self.made_directory() / "own.prm"
+        layers = ("0: Dr = 60%", f"2: {cam_clay}")
+        text = self.suggest(path, "--weight", "300kN", status=1, layers=layers)
+        self.assertIn("layer 2: modified Cam clay beside sand", text)
+
     def test_study_of_a_critical_angle(self) -> None:
         """It changes the entry that the law has."""
         path = self.made_directory()
@@ -478,6 +492,20 @@ class Files(SuggestTest):
         self.assertEqual(entries["Soil/Layer 1/Solid density"], "2650")
         self.run_program(SUCCESS, path, "--validate", "--strict")
 
+    def test_angle_is_enough(self) -> None:
+        """The modulus of sand grows with its angle, as with its density."""
+        moduli = []
+        for angle in (30, 35, 40):
+            path = self.made_directory(f"of_{angle}") / "own.prm"
+            self.suggest(path, layers=(f"0: phi = {angle}",))
+            entries = read_parameters([str(path)])
+            moduli.append(float(entries["Soil/Layer 1/Youngs modulus"]))
+            self.assertRegex(path.read_text("utf-8"), "Youngs modulus .*ASSUMED: D_r")
+        self.assertLess(10e6, moduli[0])
+        self.assertLess(moduli[0], moduli[1])
+        self.assertLess(moduli[1], moduli[2])
+        self.assertLess(moduli[2], 130e6)
+
     def test_refusals(self) -> None:
         """One clear line each, and no file."""
         path = self.made_directory() / "own.prm"
@@ -489,7 +517,9 @@ class Files(SuggestTest):
             (["--weight", "-1"], (SAND,), "must be positive"),
             (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
-            ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
+            ([], ("0: Friction angle = 33 + 0.1*d",), "needs Youngs modulus"),
+            ([], ("0: Youngs modulus = 1e7",), "needs Friction angle"),
+            ([], ("0: phi = 33, Dr = 60%",), "leave out either"),
             ([], ("0: su = 0 kPa",), "su = 0 Pa must be positive"),
             ([], ("0: su = -20 kPa",), "must be positive"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),

@@ -7,6 +7,7 @@ that of Houlsby & Byrne (2005). The plug of clay: reverse bearing, and lift by t
 below (design/plug_stability). Water boils below the lid. The pump. The plug meets the
 lid: no suction helps from that depth on. The wall buckles (design/shell).
 """
+import math
 from math import inf
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,6 +17,7 @@ import numpy as np
 from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson.evaluation import BOILING as BOILING_COLUMN
+from caisson.evaluation import DEPTH as DEPTH_COLUMN
 from caisson.evaluation import HEAVE as HEAVE_COLUMN
 from caisson.evaluation import at_depths, pump_limit
 from caisson.plot import suction_methods, theory
@@ -166,6 +168,13 @@ def write_pressures(path: Path, run: Results) -> Path | None:
     return write_columns(path, found) if found else None
 
 
+def rounded_down(depth: float) -> float:
+    """Return a depth (m) in whole decimeters, or with two digits below 1 m; a
+    twentieth less than one of them counts as that one."""
+    step = min(0.1, 10.0 ** (math.floor(math.log10(depth)) - 1)) if depth > 0 else 0.1
+    return round(step * math.floor(depth / step + 0.05), 9)
+
+
 def lid_depth(depth: np.ndarray, room: np.ndarray) -> float | None:
     """Return the depth (m) at which the plug meets the lid, by the room below it at
     depths [n]: as over the last meter, if it would go on so; None without any rise."""
@@ -198,8 +207,11 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
         found[PUMP] = np.full(len(at), pump)
     found = {name: values / factors[name] for name, values in found.items()}
     if (length := run.scene.get("skirt_length_m")) and HEAVE_COLUMN in numbers:
-        room = float(length) - at - factors[LID] * numbers[HEAVE_COLUMN]
-        found[LID] = np.where(room > 1e-9, inf, 0.0)
+        rows = at_depths(run)
+        depth, heave = rows[DEPTH_COLUMN], factors[LID] * rows[HEAVE_COLUMN]
+        lid = lid_depth(depth, float(length) - depth - heave)
+        met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
+        found[LID] = np.where(at < met - 1e-9, inf, 0.0)
     found[SHELL] = shell_limit(run, at, factors[SHELL])
     return {k: values for k, values in found.items() if not np.isnan(values).all()}
 

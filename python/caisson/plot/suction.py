@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from caisson.evaluation import rest_of_run
 from caisson.plot import limits
 from caisson.plot import suction_methods as methods
+from caisson.plot import band as between
 from caisson.plot import theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
@@ -161,6 +162,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
     lines = [applied[depth <= (run.feasible_to or np.inf)]]
+    lines += between.draw(axes, run, "required_suction_Pa", "required")
     draw_required(axes, answers)
     draw_critical(axes, answers)
     known = [*answers.suctions.values()]

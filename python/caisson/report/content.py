@@ -10,6 +10,7 @@ from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
 from caisson.plot import design, suction_methods, theory
+from caisson.plot.band import LABEL, range_of
 from caisson.plot.forces import (
     COLORS,
     WATER_COLOR,
@@ -110,6 +111,16 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
     return found
 
 
+def range_curve(run: Results, column: str, name: str) -> list[Curve]:
+    """Return the area between low and high resistance; nothing without a band."""
+    found = range_of(run, column)
+    if found is None:
+        return []
+    depth, low, high = found
+    area = band(f"{name}, {LABEL}", "black", low, high, depth)
+    return [area | {"shade": True}]
+
+
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     """Return the forces (kN) over depth (m) with their error bars and the range of
     Houlsby & Byrne."""
@@ -122,6 +133,7 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
+    found += range_curve(run, column_of("total"), "total")
     for name, color in COLORS.items():
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
@@ -186,7 +198,8 @@ def axis_end(shown: list[Curve]) -> float:
         return max((x for end in ends for x in end if x is not None), default=0.0)
 
     seen = [c for c in shown if not c.get("hidden") and not c.get("far")]
-    own, full = (most([c for c in seen if c.get(k)]) for k in ("thick", "full"))
+    own = most([c for c in seen if c.get("thick") or c.get("shade")])
+    full = most([c for c in seen if c.get("full")])
     wide = (2.0 if full else 1.5) * own
     return 1.03 * (max(min(most(seen), wide), full) if own > 0 else most(seen))
 
@@ -217,6 +230,7 @@ def suction_curves(
     """Return the required suction (kPa) over depth (m), beside methods and limits."""
     history, depth = run.history, run.history["penetration_m"]
     shown = [*limit_curves(found, float(depth.max())), *method_suctions(run)]
+    shown += range_curve(run, "required_suction_Pa", "required")
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
         at, *ends = down_to(end, *bar)

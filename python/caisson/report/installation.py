@@ -29,6 +29,7 @@ from caisson.report.scene import plug_area
 
 HOUR = 3600.0
 NOTHING = 5e-4  # of a unit of the tables
+NEARLY = 0.01  # of the largest flow
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
@@ -347,8 +348,8 @@ def quarters_of(
     quarters = wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
     deep = wanted <= reached + 1e-3 * planned
     at = wanted[deep & (wanted > run.history[DEPTH][0])]
-    if end is not None and np.abs(wanted - end).min() > 0.02 * planned:
-        at, wanted = np.append(at, end), np.unique(np.append(wanted, end))
+    if end is not None:
+        at, wanted = np.union1d(at, end), np.union1d(wanted, end)
     known = installation_of(run, Rate(), at) if len(at) else None
     places = [list(at).index(x) if x in at else None for x in wanted]
     if known is None:
@@ -376,8 +377,9 @@ def quarters_of(
     shares = {
         float(x): f"{100 * x / planned:.0f} %: {shown.place(x)}" for x in quarters
     }
-    heads = [shares.get(float(x), f"end: {shown.place(x)}") for x in wanted]
-    return {"heads": [shown.named("limit of the suction (kPa)"), *heads], "rows": rows}
+    heads = [shares.get(float(x), f"feasible: {shown.place(x)}") for x in wanted]
+    head = shown.named("limit of the suction (kPa)")
+    return {"heads": [head, *heads], "rows": rows, "depths": wanted}
 
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
@@ -387,7 +389,9 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
         if found.has_suction
         else np.full(len(found.flow), True)
     )
-    most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
+    flow = np.where(pumped, found.flow, -np.inf)
+    # of flows that are nearly the largest one, that against the most suction
+    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
     words = (
         f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
     )

@@ -31,6 +31,7 @@
       label: curve.label,
       color: shown(curve.color),
       range: range,
+      shade: curve.shade,
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -53,7 +54,17 @@
           return [at.left + offset.left, at.top + offset.top];
         })
       );
-      context.strokeStyle = one.color;
+      context.strokeStyle = context.fillStyle = one.color;
+      if (one.shade) {
+        // of the same run: an area, behind which its curve is seen
+        context.globalAlpha = 0.16;
+        context.beginPath();
+        for (const row of ends) context.lineTo(...row[0]);
+        for (const row of [...ends].reverse()) context.lineTo(...row[1]);
+        context.fill();
+        context.globalAlpha = 1;
+        return;
+      }
       context.lineWidth = 0.9;
       for (const side of [0, 1]) {
         context.beginPath();
@@ -91,7 +102,7 @@
           if (x === null) return;
           low = Math.min(low, x);
           high = Math.max(high, x);
-          if (curve.thick) own = Math.max(own, x);
+          if (curve.thick || curve.shade) own = Math.max(own, x);
           if (curve.full) full = Math.max(full, x);
           top = Math.min(top, curve.y[i]);
           bottom = Math.max(bottom, curve.y[i]);

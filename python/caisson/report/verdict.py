@@ -14,7 +14,8 @@ import numpy as np
 
 from caisson import curves, disk, evaluation
 from caisson.report import installation, pull, remedies
-from caisson.plot.limits import BOILING, COMPUTED, LID, PIPING
+from caisson.plot import limits
+from caisson.plot.limits import BOILING, COMPUTED, PIPING
 from caisson.report.installation import NOTHING, Installation, Rate
 from caisson.report.scene import end_of, entry_of
 from caisson.results import Results
@@ -26,6 +27,7 @@ REASONS = {
     BOILING: "boiling below the lid",
 }
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
+FINER = 21  # rows between two of the tables
 
 
 class Verdict(NamedTuple):
@@ -43,7 +45,7 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
     if not beyond.any():
         return None
     i = int(np.argmax(beyond))
-    if i and np.isfinite(limit[i - 1]):
+    if i and np.isfinite(limit[i - 1]) and limit[i] > 0:  # 0 is the lid
         excess = (found.required - limit)[i - 1 : i + 1]
         return float(np.interp(0, excess, found.depth[i - 1 : i + 1])), i
     return float(found.depth[i]), i
@@ -55,7 +57,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
-    return float(f"{ended['penetration_m']:.3g}"), IN_PROGRAM.get(reason, reason)
+    return limits.rounded_down(ended["penetration_m"]), IN_PROGRAM.get(reason, reason)
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
@@ -65,11 +67,14 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
         return None
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
+    if i := end[1]:  # rows are far apart where a tip comes into another layer
+        between = np.linspace(found.depth[i - 1], found.depth[i], FINER)
+        finer = installation.installation_of(run, Rate(), between)
+        if finer and (sharper := reached(finer, finer.allowable)):
+            found, end = finer, sharper
     name = found.governing(end[1])
-    depth = found.lid if name == LID and found.lid else end[0]
-    return float(f"{depth:.3g}"), found.named(name).replace(
-        name, REASONS.get(name, name)
-    )
+    words = found.named(name).replace(name, REASONS.get(name, name))
+    return limits.rounded_down(end[0]), words
 
 
 def beside_gradient(run: Results) -> str:
