@@ -48,7 +48,6 @@ from caisson.suggest.sizes import (
     DEFAULT_ROW,
     LEVELS,
     Body,
-    Level,
     frames_of,
     mesh_of,
     start_of,
@@ -197,7 +196,8 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    band.check(options)
+    if options.estimates:
+        band.check(options)
     files: list[Path] = [f for f in (options.file, options.study) if f]
     files += [member_of(options.file, estimate) for estimate in options.estimates]
     for file in files:
@@ -524,7 +524,9 @@ def ends_of(
 
 def write(options: argparse.Namespace) -> None:
     """Write the scene, those of a band, options.estimates, and the study if there is to
-    be one; say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
+    be one; say what the scene will cost.
+
+    Raises SuggestError, RunError, InputError or OSError.
     """
     check(options)
     found = None
@@ -549,7 +551,7 @@ def write(options: argparse.Namespace) -> None:
         texts[file] = scene_of(options, soil, file, words)
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
-        if options.spread:
+        if options.estimates and options.spread:
             texts[options.study] = spread_study_of(options, layers, known)
         else:
             texts[options.study] = (

@@ -37,6 +37,7 @@ INVERSE = ("Void ratio", "Porosity", "Permeability", "Poisson ratio", "Solid den
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
+    parser.set_defaults(estimates=[])
     add = parser.add_argument_group("low and high estimate, NAME_low and NAME_high.prm")
     for estimate in SIGNS:
         add.add_argument(
