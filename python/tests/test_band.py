@@ -39,7 +39,6 @@ class Estimates(unittest.TestCase):
         default["cpt"] = None
         options = argparse.Namespace(**{**default, **given})
         band.check(options)
-        options.estimates = band.estimates_of(options)
         return band.of_texts(texts, KNOWN, "density", options)
 
     def test_only_what_differs(self) -> None:

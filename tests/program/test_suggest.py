@@ -138,6 +138,20 @@ class Layers(SuggestTest):
             )
         self.assertEqual(entries["Soil/Layer 1/Adhesion factor of the walls"], "0.4")
 
+    def test_clay_by_effective_stress_keeps_its_water(self) -> None:
+        """With suction it is undrained; beside sand it is refused."""
+        cam_clay = "Law = modified Cam clay, e = 1.2"
+        for layers in ((f"0: {cam_clay}",), (f"0: {cam_clay}", "3: su = 30 kPa")):
+            path = self.made_directory(f"of_{len(layers)}") / "own.prm"
+            self.suggest(path, "--weight", "300kN", layers=layers)
+            entries = read_parameters([str(path)])
+            self.assertEqual(entries["Water/Level"], "undrained")
+            self.run_program(SUCCESS, path, "--validate", "--strict")
+        path = self.made_directory() / "own.prm"
+        layers = ("0: Dr = 60%", f"2: {cam_clay}")
+        text = self.suggest(path, "--weight", "300kN", status=1, layers=layers)
+        self.assertIn("layer 2: modified Cam clay beside sand", text)
+
     def test_study_of_a_critical_angle(self) -> None:
         """It changes the entry that the law has."""
         path = self.made_directory()

@@ -148,7 +148,7 @@ def percent(text: str) -> int:
     return int(text.removesuffix("%"))
 
 
-def check(options: argparse.Namespace) -> None:
+def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
@@ -196,10 +196,8 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    if options.estimates:
-        band.check(options)
     files: list[Path] = [f for f in (options.file, options.study) if f]
-    files += [member_of(options.file, estimate) for estimate in options.estimates]
+    files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
@@ -249,17 +247,28 @@ def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
     """Return what the template takes of weight and water. Where all of the soil is
-    undrained clay no water flows. soil: the layers with all of their entries."""
+    undrained clay no water flows, and clay with a law of effective stress keeps its
+    water. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
     clays = list(map(is_clay, layers))
-    if not all(clays):
+    of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
+    if all(c or e for c, e in zip(clays, of_effective_stress)):
+        level = "undrained" if any(of_effective_stress) else "drained"
+    else:
         refuse_quick_clay(reached(options, layers))
         soil = with_permeability(soil)
+        level = "seepage"
+        if any(of_effective_stress):
+            raise SuggestError(
+                f"layer {1 + of_effective_stress.index(True)}: {CAM_CLAY} beside sand"
+                " is for a coupled run, which takes a slower penetration. Give the"
+                " clay as su, or write the scene with Water/Level = coupled by hand"
+            )
     return {
         "weight": options.weight,
         "water_depth": options.water_depth,
-        "flows": not all(clays),
+        "water_level": level,
         "has_clay": any(clays),
         "layers": soil,
     }
@@ -313,27 +322,6 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
         follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
         choices=cone.choices_of(
             found, end_of(options), options.wall_friction, law_of(options)
-        ),
-    )
-
-
-def spread_study_of(
-    options: argparse.Namespace, layers: Sequence[Layer], known: Mapping[str, str]
-) -> str:
-    """Return the text of a study of twenty runs in soil of --spread. Raises
-    SuggestError."""
-    deep = reached(options, layers)
-    follows = options.wall_friction is None and not any(map(is_by_density, deep))
-    wall = wall_friction_of(None, deep).value if follows else "0"
-    return template(HERE / "spread_study.toml.jinja").render(
-        scene=os.path.relpath(options.file, options.study.parent),
-        spread=options.spread,
-        factors=band.factors_of(
-            texts_of(options),
-            layers,
-            known,
-            band.spread_of(options.spread),
-            "" if wall == "0" else wall,
         ),
     )
 
@@ -510,10 +498,8 @@ def ends_of(
     known: Mapping[str, str],
     found: Interpretation | None,
 ) -> dict[str, list[Layer]]:
-    """Return the layers of the low and the high estimate, as far as they are asked for.
+    """Return the layers of the low and the high estimate, of which there is one.
     known: the units of entries; found: a cone test. Raises SuggestError."""
-    if not options.estimates:
-        return {}
     if found is None:
         return band.of_texts(texts_of(options), known, law_of(options), options)
     choices = cone.choices_of(
@@ -522,13 +508,11 @@ def ends_of(
     return band.of_choices(layers, choices)
 
 
-def write(options: argparse.Namespace) -> None:
-    """Write the scene, those of a band, options.estimates, and the study if there is to
-    be one; say what the scene will cost.
-
-    Raises SuggestError, RunError, InputError or OSError.
+def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
     """
-    check(options)
+    check(options, estimates)
     found = None
     known = {} if options.cpt else entries_of_layers()
     if options.cpt:
@@ -546,13 +530,16 @@ def write(options: argparse.Namespace) -> None:
         if options.law and not any(map(is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, options.file)}
-    for estimate, soil in ends_of(options, layers, known, found).items():
+    ends = ends_of(options, layers, known, found) if estimates else {}
+    for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
         texts[file] = scene_of(options, soil, file, words)
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
-        if options.estimates and options.spread:
-            texts[options.study] = spread_study_of(options, layers, known)
+        if estimates and options.spread:
+            given = texts_of(options)
+            deep = reached(options, layers)
+            texts[options.study] = band.study_of(options, given, layers, deep, known)
         else:
             texts[options.study] = (
                 soil_study_of(options, found) if found else study_of(options, layers)
@@ -569,17 +556,25 @@ def write(options: argparse.Namespace) -> None:
         print(remark)
 
 
+def write_all(options: argparse.Namespace) -> list[str]:
+    """Write the scene with those of its band; return which estimates these are. Raises
+    SuggestError, RunError, InputError or OSError."""
+    band.check(options)
+    estimates = band.estimates_of(options)
+    write(options, estimates)
+    return estimates
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    options.estimates = band.estimates_of(options)
-    write(options)
+    estimates = write_all(options)
     run, study = (
         ("caisson run", "caisson study")
         if INSTALLED
         else ("scripts/run", "scripts/caisson study")
     )
-    files = [options.file, *(member_of(options.file, e) for e in options.estimates)]
-    how = f"{run} --band" if options.estimates else run
+    files = [options.file, *(member_of(options.file, e) for e in estimates)]
+    how = f"{run} --band" if estimates else run
     print(f"written: {', '.join(map(str, files))}; next: {how} {options.file}")
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
