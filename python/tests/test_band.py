@@ -39,7 +39,6 @@ class Estimates(unittest.TestCase):
             **{"low": [], "high": [], "spread": None, "cpt": None, **given}
         )
         band.check(options)
-        options.estimates = band.estimates_of(options)
         return band.of_texts(texts, KNOWN, "density", options)
 
     def test_only_what_differs(self) -> None:
@@ -117,14 +116,14 @@ class Page(WithPage):
         return Results(best)
 
     def test_verdict_and_penetration_by_weight(self) -> None:
-        """40 kPa of the pump are needed at 3.67 m in hard soil, and nowhere else."""
+        """40 kPa of the pump are needed at 3.67 m in hard soil, said as 3.6 m, and nowhere else."""
         run = self.leave_band()
         page = report.write(run.directory).read_text(encoding="utf-8")
         (text,) = re.findall('<p class="verdict">(.*?)</p>', page)
         self.assertIn("Feasible to 4.5 m by weight 1 MN and suction up to 30", text)
         ends = (
             "With low resistance to 4.5 m, suction up to 16.5 kPa; with high"
-            " resistance to 3.7 m (pump)."
+            " resistance to 3.6 m (pump)."
         )
         self.assertTrue(text.endswith(ends), text)
         self.assertTrue("low resistance: 2.14 m; high resistance: 1.00 m" in page)
@@ -150,7 +149,7 @@ class Page(WithPage):
             ("total_force_N", 1e3, 0),
         ):
             depth, low, high = plotted.range_of(run, column) or [np.empty(0)] * 3
-            self.assertAlmostEqual(depth[-1], 3.67, delta=0.03)
+            self.assertAlmostEqual(depth[-1], 3.6, delta=0.02)
             expected = [
                 np.maximum(slope * factor * depth - by_weight, 0)
                 for factor in (self.FACTORS[LOW], self.FACTORS[HIGH])

@@ -107,7 +107,6 @@ def main(options: argparse.Namespace) -> int:
         if has_caisson:
             options.file, options.study = directory / SCENE, directory / STUDY
             options.layer = options.sand = options.density = None
-            options.estimates = []  # they are in the study
             options.overwrite = True
             suggest.write(options)  # which prints the table
             files += [options.file, options.study]

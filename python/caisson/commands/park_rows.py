@@ -167,7 +167,7 @@ def suggested(path: Path, position: Position, scene: Path) -> str:
     with contextlib.redirect_stdout(said):
         options = parser().parse_args(words)
         options.overwrite = True
-        suggest.write(options)
+        suggest.write_all(options)
     return said.getvalue()
 
 

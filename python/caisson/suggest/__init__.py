@@ -100,7 +100,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
-    text = "write a study, too: of angle or density, or of a cone test's estimates"
+    text = (
+        "write a study, too: of angle or density, of a cone test's estimates, or with"
+        " --spread of twenty runs for P5, P50 and P95"
+    )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
     band.add_arguments(parser)
@@ -146,7 +149,7 @@ def percent(text: str) -> int:
     return int(text.removesuffix("%"))
 
 
-def check(options: argparse.Namespace) -> None:
+def check(options: argparse.Namespace, estimates: Sequence[str]) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
@@ -194,9 +197,8 @@ def check(options: argparse.Namespace) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
-    band.check(options)
     files: list[Path] = [f for f in (options.file, options.study) if f]
-    files += [member_of(options.file, estimate) for estimate in options.estimates]
+    files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
@@ -321,6 +323,27 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
         follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
         choices=cone.choices_of(
             found, end_of(options), options.wall_friction, law_of(options)
+        ),
+    )
+
+
+def spread_study_of(
+    options: argparse.Namespace, layers: Sequence[Layer], known: Mapping[str, str]
+) -> str:
+    """Return the text of a study of twenty runs in soil of --spread. Raises
+    SuggestError."""
+    deep = reached(options, layers)
+    follows = options.wall_friction is None and not any(map(is_by_density, deep))
+    wall = wall_friction_of(None, deep).value if follows else "0"
+    return template(HERE / "spread_study.toml.jinja").render(
+        scene=os.path.relpath(options.file, options.study.parent),
+        spread=options.spread,
+        factors=band.factors_of(
+            texts_of(options),
+            layers,
+            known,
+            band.spread_of(options.spread),
+            "" if wall == "0" else wall,
         ),
     )
 
@@ -497,10 +520,8 @@ def ends_of(
     known: Mapping[str, str],
     found: Interpretation | None,
 ) -> dict[str, list[Layer]]:
-    """Return the layers of the low and the high estimate, as far as they are asked for.
+    """Return the layers of the low and the high estimate, of which there is one.
     known: the units of entries; found: a cone test. Raises SuggestError."""
-    if not options.estimates:
-        return {}
     if found is None:
         return band.of_texts(texts_of(options), known, law_of(options), options)
     choices = cone.choices_of(
@@ -509,11 +530,11 @@ def ends_of(
     return band.of_choices(layers, choices)
 
 
-def write(options: argparse.Namespace) -> None:
-    """Write the scene, those of a band, options.estimates, and the study if there is to
-    be one; say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
+def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
     """
-    check(options)
+    check(options, estimates)
     found = None
     known = {} if options.cpt else entries_of_layers()
     if options.cpt:
@@ -531,14 +552,18 @@ def write(options: argparse.Namespace) -> None:
         if options.law and not any(map(is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, options.file)}
-    for estimate, soil in ends_of(options, layers, known, found).items():
+    ends = ends_of(options, layers, known, found) if estimates else {}
+    for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
         texts[file] = scene_of(options, soil, file, words)
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
-        texts[options.study] = (
-            soil_study_of(options, found) if found else study_of(options, layers)
-        )
+        if estimates and options.spread:
+            texts[options.study] = spread_study_of(options, layers, known)
+        else:
+            texts[options.study] = (
+                soil_study_of(options, found) if found else study_of(options, layers)
+            )
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
         texts[table] = cone_file.text_of(found.test)
     with disk.all_or_none(options.overwrite):
@@ -551,17 +576,25 @@ def write(options: argparse.Namespace) -> None:
         print(remark)
 
 
+def write_all(options: argparse.Namespace) -> list[str]:
+    """Write the scene with those of its band; return which estimates these are. Raises
+    SuggestError, RunError, InputError or OSError."""
+    band.check(options)
+    estimates = band.estimates_of(options)
+    write(options, estimates)
+    return estimates
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    options.estimates = band.estimates_of(options)
-    write(options)
+    estimates = write_all(options)
     run, study = (
         ("caisson run", "caisson study")
         if INSTALLED
         else ("scripts/run", "scripts/caisson study")
     )
-    files = [options.file, *(member_of(options.file, e) for e in options.estimates)]
-    how = f"{run} --band" if options.estimates else run
+    files = [options.file, *(member_of(options.file, e) for e in estimates)]
+    how = f"{run} --band" if estimates else run
     print(f"written: {', '.join(map(str, files))}; next: {how} {options.file}")
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"

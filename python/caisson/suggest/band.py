@@ -17,6 +17,8 @@ from caisson.design import quantity
 from caisson.suggest import sand
 from caisson.suggest.entry import Entry, Layer, SuggestError
 from caisson.suggest.soil import (
+    ANGLES_OF_FRICTION,
+    STRENGTH,
     Change,
     Given,
     head_of,
@@ -27,6 +29,8 @@ from caisson.suggest.soil import (
 
 WIDTH = 1.645  # standard deviations from the mean to the points of 5 and 95 %
 MOST = 0.5  # coefficient of variation, of which low is a fifth of best
+OF_STRENGTH = ("Cohesion", "Tension cut-off", "Youngs modulus")
+WALL = "Rigid body/Friction angle of the {} wall"
 SIGNS = {LOW: -1, HIGH: 1}
 INVERSE = ("Void ratio", "Porosity", "Permeability", "Poisson ratio", "Solid density")
 
@@ -128,10 +132,7 @@ def spread_by(
         factors: dict[str, float] = {}
         texts = with_density(texts) if sand.SAND in texts else texts
         for word, variation in spread.items():
-            try:
-                name = name_of(word, known, texts.get("Law", ""))
-            except SuggestError:  # an entry of another law
-                continue
+            name = name_in(word, known, texts.get("Law", ""))
             if name in INVERSE:
                 raise SuggestError(
                     f"--spread: a larger {word} is no higher resistance; give --low"
@@ -165,7 +166,7 @@ def of_texts(
     in words. Raises SuggestError."""
     found, used = dict[str, list[Layer]](), set[str]()
     spread = spread_of(options.spread) if options.spread else {}
-    for estimate in options.estimates:
+    for estimate in estimates_of(options):
         if spread:
             change = spread_by(spread, SIGNS[estimate], known, used)
         else:
@@ -177,6 +178,47 @@ def of_texts(
             " of --layer, and what is assumed follows them"
         )
     return found
+
+
+def factors_of(
+    texts: Sequence[str],
+    layers: Sequence[Layer],
+    known: Mapping[str, str],
+    spread: Mapping[str, float],
+    wall: str,
+) -> dict[str, tuple[float, str, dict[str, str]]]:
+    """Return for each symbol of a spread its coefficient of variation, the largest
+    factor ("" for any), and the entries that it multiplies, of all layers. wall: the
+    friction angle of the walls (degrees), "" where it does not follow that of soil."""
+    found = {}
+    for word, variation in spread.items():
+        entries, most = dict[str, str](), ""
+        for i, (text, layer) in enumerate(zip(texts, layers), 1):
+            given = texts_in(head_of(text)[1], known)
+            name = name_in(word, known, given.get("Law", ""))
+            if name not in given and not (
+                name == density_law.DENSITY and sand.SAND in given
+            ):
+                continue
+            for entry in OF_STRENGTH if name == STRENGTH else [name]:
+                if value := layer.value(entry):
+                    entries[f"Soil/Layer {i}/{entry}"] = value
+            if name == density_law.DENSITY:
+                largest = 0.9999 / float(layer.value(name))
+                most = f"{min(largest, float(most or largest)):.6g}"
+            if name in ANGLES_OF_FRICTION[:2] and wall:
+                sides = [f"{WALL.format(side)}" for side in ("outer", "inner")]
+                entries |= dict.fromkeys(sides, wall)
+        found[word] = variation, most, entries
+    return found
+
+
+def name_in(word: str, known: Mapping[str, str], law: str) -> str:
+    """Return the entry that a symbol names in a layer of a law, "" for none."""
+    try:
+        return name_of(word, known, law)
+    except SuggestError:  # an entry of another law
+        return ""
 
 
 def of_choices(
