@@ -35,9 +35,9 @@ class Estimates(unittest.TestCase):
 
     def ends(self, texts: list[str], **given: object) -> dict[str, list[Layer]]:
         """Return them, by the options of the command."""
-        options = argparse.Namespace(
-            **{"low": [], "high": [], "spread": None, "cpt": None, **given}
-        )
+        default: dict[str, object] = {"low": [], "high": [], "spread": None}
+        default["cpt"] = None
+        options = argparse.Namespace(**{**default, **given})
         band.check(options)
         return band.of_texts(texts, KNOWN, "density", options)
 
@@ -116,7 +116,8 @@ class Page(WithPage):
         return Results(best)
 
     def test_verdict_and_penetration_by_weight(self) -> None:
-        """40 kPa of the pump are needed at 3.67 m in hard soil, said as 3.6 m, and nowhere else."""
+        """40 kPa of the pump are needed at 3.67 m in hard soil, which is said as 3.6 m,
+        and nowhere else."""
         run = self.leave_band()
         page = report.write(run.directory).read_text(encoding="utf-8")
         (text,) = re.findall('<p class="verdict">(.*?)</p>', page)
