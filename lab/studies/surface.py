@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Studies of kind "surface": are few runs enough for P5, P50 and P95?
 
-The first study of the file has few runs, the second one many, of the same distributions.
-The quantiles of both are those of their response surface (caisson.parameters.surface);
-those of the many runs are also counted, where a run that does not reach a depth is above
-all others there. The keys of a study are those of kind "parameters". Fails where a
-quantile of the few runs differs by more than 5 % from that of the many.
+The first study of the file has few runs, the second one many, of the same
+distributions. The quantiles of both are those of their response surface
+(caisson.parameters.surface); those of the many runs are also counted, where a run that
+does not reach a depth is above all others there. The keys of a study are those of kind
+"parameters". Fails where a quantile of the few runs differs by more than 5 % from that
+of the many.
 """
 import math
 from collections.abc import Sequence

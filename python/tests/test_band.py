@@ -35,9 +35,9 @@ class Estimates(unittest.TestCase):
 
     def ends(self, texts: list[str], **given: object) -> dict[str, list[Layer]]:
         """Return them, by the options of the command."""
-        options = argparse.Namespace(
-            **{"low": [], "high": [], "spread": None, "cpt": None, **given}
-        )
+        default: dict[str, object] = {"low": [], "high": [], "spread": None}
+        default["cpt"] = None
+        options = argparse.Namespace(**{**default, **given})
         band.check(options)
         return band.of_texts(texts, KNOWN, "density", options)
 
@@ -116,7 +116,8 @@ class Page(WithPage):
         return Results(best)
 
     def test_verdict_and_penetration_by_weight(self) -> None:
-        """40 kPa of the pump are needed at 3.67 m in hard soil, said as 3.6 m, and nowhere else."""
+        """40 kPa of the pump are needed at 3.67 m in hard soil, which is said as 3.6 m,
+        and nowhere else."""
         run = self.leave_band()
         page = report.write(run.directory).read_text(encoding="utf-8")
         (text,) = re.findall('<p class="verdict">(.*?)</p>', page)
@@ -140,6 +141,21 @@ class Page(WithPage):
         self.assertEqual(rows[1], [f"{name}, best", *best])
         high = ["1.5", "18", "34.5", "not feasible"]
         self.assertEqual(rows[2], [f"{name}, high", *high])
+
+    def test_row_where_suction_ends(self) -> None:
+        """With a pump for 25 kPa that is 4 m, between the quarters, and 2.6 m in hard
+        soil; soft soil needs 13 kPa there."""
+        self.PUMP = {**self.PUMP, "Water/Largest suction": "25e3"}
+        run = self.leave_band()
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        (table,) = re.findall('<table class="quarters">(.*?)</table>', page, re.S)
+        heads = re.findall("<th.*?>(.*?)</th>", table)
+        rows = [re.findall("<td>(.*?)</td>", row) for row in table.split("<tr>")[2:]]
+        self.assertEqual(len(heads), 6)
+        self.assertIn("feasible: ", heads[4])
+        cells = [row[4] for row in rows[:3]]
+        self.assertEqual(cells[0::2], ["13", "not feasible"])
+        self.assertAlmostEqual(float(cells[1]), 25, delta=0.6)
 
     def test_area_of_the_charts(self) -> None:
         """It has the ends of all three, down to where the first of them ends."""

@@ -34,7 +34,7 @@ class Park(CommandTest):
         """Write the table."""
         self.table.write_text("\n".join([HEADS, *rows]) + "\n", encoding="utf-8")
 
-    def call(self, *options: str) -> list[str]:
+    def words_of(self, *options: str) -> list[str]:
         """Return the words of a call with the stand-in."""
         words = ["park", str(self.table), "--error", "20", "--out", str(self.out)]
         return [*words, "--program", str(FAKE_PROGRAM), *options]
@@ -59,7 +59,7 @@ class Park(CommandTest):
         names = ["P1", "P2", "P3", "P4"]
         self.write(*(ROW.format(name, 20) for name in names))
         with subprocess.Popen(
-            self.words(*self.call("--jobs", "2")),
+            self.words(*self.words_of("--jobs", "2")),
             env={**self.environment(), "FAKE_PROGRAM_HOLDS": "P2"},
             stdout=subprocess.DEVNULL,
             start_new_session=True,
@@ -72,7 +72,7 @@ class Park(CommandTest):
             os.killpg(process.pid, signal.SIGKILL)
         self.assertFalse((self.out / "overview.csv").exists())
         before = {x: self.record(x).stat().st_mtime_ns for x in others}
-        said, _ = self.caisson(*self.call())
+        said, _ = self.caisson(*self.words_of())
         self.assertIn("of which new or changed: 0", said)
         self.assertIn("4 of 4 positions", said)
         self.assertEqual(self.calls(), sorted([*names, "P2"]))
@@ -82,7 +82,7 @@ class Park(CommandTest):
         for row in self.overview().values():
             self.assertTrue((self.out / row["page"]).is_file())
         self.write(*(ROW.format(name, 20) for name in [*names, "P/5"]))
-        said, _ = self.caisson(*self.call())
+        said, _ = self.caisson(*self.words_of())
         self.assertIn("positions: 5, of which new or changed: 1", said)
         self.assertEqual(self.calls(), sorted([*names, "P2", "P_5"]))
         self.assertIn("P/5", self.overview())
@@ -94,15 +94,15 @@ class Park(CommandTest):
     def test_parts(self) -> None:
         """Each job of an array makes its runs; the overview names what is missing."""
         self.write(*(ROW.format(name, 20) for name in ("A", "B")))
-        self.caisson(*self.call("--part", "1/2"))
+        self.caisson(*self.words_of("--part", "1/2"))
         self.assertEqual(len(self.calls()), 1)
         missing = ({"A", "B"} - set(self.calls())).pop()
-        self.caisson(*self.call("--evaluate"), status=1)
+        self.caisson(*self.words_of("--evaluate"), status=1)
         rows = self.overview()
         self.assertEqual(next(iter(rows)), missing, "it comes first")
         self.assertIn("No result (not run)", rows[missing]["verdict"])
-        self.caisson(*self.call("--part", "2/2"))
-        self.caisson(*self.call("--evaluate"))
+        self.caisson(*self.words_of("--part", "2/2"))
+        self.caisson(*self.words_of("--evaluate"))
         self.assertEqual(self.calls(), ["A", "B"])
 
     def test_rows_that_are_wrong(self) -> None:
@@ -116,7 +116,7 @@ class Park(CommandTest):
             'F,4,2,40,60,30,"1: su = 20 kPa"',
             "G,4,2,40,60,30,",
         )
-        _, said = self.caisson(*self.call(), status=1)
+        _, said = self.caisson(*self.words_of(), status=1)
         lines = said.splitlines()
         self.assertEqual(len(lines), 6, said)
         for line, text in zip(
@@ -134,7 +134,7 @@ class Park(CommandTest):
         self.assertEqual(list((self.out / "scenes").iterdir()), [])
         self.assertEqual(self.calls(), [])
         self.write(ROW.format("A", 20), ROW.format("A", 30), ROW.format("", 30))
-        _, said = self.caisson(*self.call(), status=1)
+        _, said = self.caisson(*self.words_of(), status=1)
         self.assertIn("row 3, column name: 'A' has the results of row 2, too", said)
         self.assertIn("row 4, column name: it is empty", said)
 
@@ -149,19 +149,34 @@ class Park(CommandTest):
             ("name", "has no position below its heads, such as name,diameter_m"),
         ):
             self.table.write_text(text, encoding="utf-8")
-            _, said = self.caisson(*self.call(), status=1)
+            _, said = self.caisson(*self.words_of(), status=1)
             self.assertIn(why, said)
 
     def test_scenes(self) -> None:
         """They have the name of the position, and the units of the heads."""
         self.write(ROW.format("North 1", 20))
-        self.caisson(*self.call("--check"))
+        self.caisson(*self.words_of("--check"))
         text = (self.out / "scenes/North_1.prm").read_text(encoding="utf-8")
         self.assertIn(
             "set Title = North 1, a caisson of 4 m with a wall of 40 mm", text
         )
         self.assertRegex(text, r"Submerged weight += 60000")
         self.assertEqual(self.calls(), [])
+
+    def test_band(self) -> None:
+        """A row with a spread has three runs, and stands in the overview once."""
+        row = ROW.format("A", 20)
+        text = f"{HEADS},spread\n{row},su 15%\n{ROW.format('B', 20)},\n"
+        self.table.write_text(text, encoding="utf-8")
+        self.caisson(*self.words_of())
+        self.assertEqual(self.calls(), ["A", "A_high", "A_low", "B"])
+        self.assertEqual(sorted(self.overview()), ["A", "B"])
+        self.table.write_text(f"{HEADS}\n{row}\n", encoding="utf-8")
+        said, _ = self.caisson(*self.words_of())
+        self.assertIn("1 of 1 positions", said)
+        self.assertEqual(
+            [path.name for path in (self.out / "scenes").glob("A*.prm")], ["A.prm"]
+        )
 
 
 if __name__ == "__main__":

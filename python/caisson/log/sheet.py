@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A blank log sheet to print: the chart of what is expected and allowed, to plot the
 measured line on, a table to fill in by hand, and when to stop."""
-import io
 import textwrap
 from pathlib import Path
 
 import numpy as np
-from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
 from caisson import disk, evaluation
@@ -107,12 +105,8 @@ def write(directory: Path) -> list[Path]:
     rows = rows_of(expected)
     pages = [chart(expected)]
     pages += [table(expected, rows[i : i + ROWS]) for i in range(0, len(rows), ROWS)]
-    buffer = io.BytesIO()
-    with PdfPages(buffer) as pdf:
-        for page in pages:
-            pdf.savefig(page)
     heads = ["depth_m", "low_kPa", "best_kPa", "high_kPa", "allowable_kPa"]
     heads += ["time_s", "suction_kPa", "flow_m3/h", "tilt_deg", "weight_kN", "remarks"]
     cells = [[digits(x, 4) for x in row] + [""] * len(BLANK) for row in rows]
     write_csv(directory / TABLE, heads, cells)
-    return [disk.write(directory / PDF, buffer.getvalue()), directory / TABLE]
+    return [disk.save_pages(pages, directory / PDF), directory / TABLE]

@@ -48,7 +48,6 @@ from caisson.suggest.sizes import (
     DEFAULT_ROW,
     LEVELS,
     Body,
-    Level,
     frames_of,
     mesh_of,
     start_of,
@@ -149,7 +148,7 @@ def percent(text: str) -> int:
     return int(text.removesuffix("%"))
 
 
-def check(options: argparse.Namespace, estimates: Sequence[str]) -> None:
+def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
@@ -323,27 +322,6 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
         follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
         choices=cone.choices_of(
             found, end_of(options), options.wall_friction, law_of(options)
-        ),
-    )
-
-
-def spread_study_of(
-    options: argparse.Namespace, layers: Sequence[Layer], known: Mapping[str, str]
-) -> str:
-    """Return the text of a study of twenty runs in soil of --spread. Raises
-    SuggestError."""
-    deep = reached(options, layers)
-    follows = options.wall_friction is None and not any(map(is_by_density, deep))
-    wall = wall_friction_of(None, deep).value if follows else "0"
-    return template(HERE / "spread_study.toml.jinja").render(
-        scene=os.path.relpath(options.file, options.study.parent),
-        spread=options.spread,
-        factors=band.factors_of(
-            texts_of(options),
-            layers,
-            known,
-            band.spread_of(options.spread),
-            "" if wall == "0" else wall,
         ),
     )
 
@@ -559,7 +537,9 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
         if estimates and options.spread:
-            texts[options.study] = spread_study_of(options, layers, known)
+            given = texts_of(options)
+            deep = reached(options, layers)
+            texts[options.study] = band.study_of(options, given, layers, deep, known)
         else:
             texts[options.study] = (
                 soil_study_of(options, found) if found else study_of(options, layers)

@@ -8,8 +8,10 @@ normal distribution about it. Of a cone test they are its own estimates. All lay
 low, or high, together.
 """
 import argparse
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from caisson import density_law
 from caisson.band import HIGH, LOW
@@ -26,6 +28,8 @@ from caisson.suggest.soil import (
     name_of,
     texts_in,
 )
+from caisson.suggest.walls import is_by_density, wall_friction_of
+from caisson.template import template
 
 WIDTH = 1.645  # standard deviations from the mean to the points of 5 and 95 %
 MOST = 0.5  # coefficient of variation, of which low is a fifth of best
@@ -178,6 +182,25 @@ def of_texts(
             " of --layer, and what is assumed follows them"
         )
     return found
+
+
+def study_of(
+    options: argparse.Namespace,
+    texts: Sequence[str],
+    layers: Sequence[Layer],
+    deep: Sequence[Layer],
+    known: Mapping[str, str],
+) -> str:
+    """Return the text of a study of twenty runs in soil of --spread. texts, layers: of
+    the best estimate; deep: those that the skirt reaches. Raises SuggestError."""
+    follows = options.wall_friction is None and not any(map(is_by_density, deep))
+    wall = wall_friction_of(None, deep).value if follows else ""
+    spread = spread_of(options.spread)
+    return template(Path(__file__).with_name("spread_study.toml.jinja")).render(
+        scene=os.path.relpath(options.file, options.study.parent),
+        spread=options.spread,
+        factors=factors_of(texts, layers, known, spread, "" if wall == "0" else wall),
+    )
 
 
 def factors_of(
