@@ -262,8 +262,8 @@ class MadeUpRun(unittest.TestCase):
         layer["wall_adhesion_Pa"] = 20e3
         run = self.write(synthetic(), layers=[layer])
         lines = self.drawn(theory.site_of(run), layers=[layer])
-        plug = "reverse bearing of the plug, factor 1.5"
-        for name in ("required, Strength of clay", plug):
+        limit = "reverse bearing of the plug, factor 1.5"
+        for name in ("required, Strength of clay", limit):
             self.assertIn(name, lines)
         design.write(self.path / "design.csv", run)
         row = self.design()[25]  # 3 m
