@@ -163,6 +163,21 @@ class Park(CommandTest):
         self.assertRegex(text, r"Submerged weight += 60000")
         self.assertEqual(self.calls(), [])
 
+    def test_band(self) -> None:
+        """A row with a spread has three runs, and stands in the overview once."""
+        row = ROW.format("A", 20)
+        text = f"{HEADS},spread\n{row},su 15%\n{ROW.format('B', 20)},\n"
+        self.table.write_text(text, encoding="utf-8")
+        self.caisson(*self.words_of())
+        self.assertEqual(self.calls(), ["A", "A_high", "A_low", "B"])
+        self.assertEqual(sorted(self.overview()), ["A", "B"])
+        self.table.write_text(f"{HEADS}\n{row}\n", encoding="utf-8")
+        said, _ = self.caisson(*self.words_of())
+        self.assertIn("1 of 1 positions", said)
+        self.assertEqual(
+            [path.name for path in (self.out / "scenes").glob("A*.prm")], ["A.prm"]
+        )
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -10,10 +10,13 @@ their units, and its name and soil:
     A1,8,6,30,3000,30,"0: Dr = 60%; 3: su = 60 kPa"
     A2,8,6,30,3000,32,"0: Dr = 70%"
 
-In place of layers the column cpt may name a cone test. All rows are checked before
-anything runs. Results go to results/park/NAME: overview.html, overview.csv and
-overview.png, and a folder for each position below runs. What is there is kept: the same
-command goes on where it was stopped. On a cluster each job of an array takes a part,
+In place of layers the column cpt may name a cone test. A row with a cone test, or with
+the columns low, high or spread, takes three runs, of low, best and high resistance.
+
+All rows are checked before anything runs. Results go to results/park/NAME:
+overview.html, overview.csv and overview.png, and a folder for each position below runs.
+What is there is kept: the same command goes on where it was stopped. On a cluster each
+job of an array takes a part,
 
     caisson park positions.csv --part $SLURM_ARRAY_TASK_ID/10
     caisson park positions.csv --evaluate

@@ -4,7 +4,7 @@
 A column is an option of `caisson suggest` by its name, which may have its unit behind
 it: diameter_m, wall (mm), weight_kN, "water depth". Beside them there are the name of
 the position, and its soil: the column layers, with what --layer takes, divided by
-semicolons, or the column cpt, the file of a cone test.
+semicolons, as in low and high, or the column cpt, the file of a cone test.
 """
 import argparse
 import contextlib
@@ -24,6 +24,7 @@ from caisson.disk import InputError
 from caisson.study import file_name
 
 NAMES = {"layer": "layers", "cone": "cpt", "cone-test": "cpt", "position": "name"}
+BY_LAYER = ("layers", "low", "high")  # columns whose parts are options
 NOT_HERE = {"help", "overwrite", "study", "file"}  # options that are no columns
 UNIT = "|".join(re.escape(x) for x in sorted(EVERY, key=len, reverse=True))
 EXAMPLE = "name,diameter_m,skirt_m,wall_mm,weight_kN,water_depth_m,layers"
@@ -113,8 +114,9 @@ def words_of(position: Position, folder: Path, scene: Path) -> list[str]:
     """Return the words of `caisson suggest` of a position. folder: of its table."""
     words = [str(scene)]
     for name, text in position.cells.items():
-        if name == "layers":
-            words += [f"--layer={part}" for part in text.split(";") if part.strip()]
+        if name in BY_LAYER:
+            option = "layer" if name == "layers" else name
+            words += [f"--{option}={part}" for part in text.split(";") if part.strip()]
         elif name == "cpt":
             words.append(f"--cpt={folder / text}")
         elif name != "name":

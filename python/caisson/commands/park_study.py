@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import disk, plot, report
-from caisson.band import BEST
+from caisson.band import BEST, ESTIMATES, member_of
 from caisson.parameters.outcome import COMPLETE, status_of
 from caisson.paths import short
 from caisson.ranks import cores
@@ -79,10 +79,12 @@ def check(studies: Sequence[Study], jobs: int) -> None:
 
 
 def page_of(directory: Path) -> str:
-    """Draw the pictures and write the page of a run, if it has none since its end;
-    return why there is none, "" where there is."""
-    page, record = directory / report.NAME, directory / Run.RECORD
-    if page.is_file() and page.stat().st_mtime >= record.stat().st_mtime:
+    """Draw the pictures and write the page of a run, if it has none since its end and
+    that of its band; return why there is none, "" where there is."""
+    page = directory / report.NAME
+    records = [member_of(directory, estimate) / Run.RECORD for estimate in ESTIMATES]
+    last = max(record.stat().st_mtime for record in records if record.is_file())
+    if page.is_file() and page.stat().st_mtime >= last:
         return ""
     try:
         plot.draw(directory)
