@@ -142,6 +142,20 @@ class Page(WithPage):
         self.assertEqual(rows[2][1:4], ["8.1", "18", "34.5"])
         self.assertEqual(rows[3][1:4], ["15.8", "29", "not feasible"])
 
+    def test_row_where_suction_ends(self) -> None:
+        """With a pump for 25 kPa that is 4 m, between the quarters, and 2.6 m in hard
+        soil; soft soil needs 13 kPa there."""
+        self.PUMP = {**self.PUMP, "Water/Largest suction": "25e3"}
+        run = self.leave_band()
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        (table,) = re.findall('<table class="quarters">(.*?)</table>', page, re.S)
+        rows = [re.findall("<td>(.*?)</td>", row) for row in table.split("<tr>")[2:]]
+        self.assertEqual(len(rows), 5)
+        place, *cells = rows[3][:4]
+        self.assertIn("feasible: ", place)
+        self.assertEqual(cells[0::2], ["13", "not feasible"])
+        self.assertAlmostEqual(float(cells[1]), 25, delta=0.6)
+
     def test_area_of_the_charts(self) -> None:
         """It has the ends of all three, down to where the first of them ends."""
         run = self.leave_band()

@@ -84,6 +84,44 @@ class Sizes(SuggestTest):
                 self.assertEqual(suggested.try_case(case, options).faults, [])
 
 
+class Band(SuggestTest):
+    """Scenes of low and high resistance beside the best one."""
+
+    def test_scenes_are_accepted(self) -> None:
+        """In words, by a spread with its study, and by a cone test; each run has its
+        own directory, and the low one the lower strength."""
+        cases: list[tuple[list[str], tuple[str, ...]]] = [
+            (["--low", "0: phi = 30", "--high", "0: phi = 36"], (SAND,)),
+            (["--spread", "phi 5%, su 20%"], (SAND, "2: su = (10 + 2*d) kPa")),
+            (["--cpt", str(EXAMPLE)], ()),
+        ]
+        for words, layers in cases:
+            path = self.made_directory(f"{len(layers)}") / "own.prm"
+            words += ["--study", str(path.with_suffix(".toml"))]
+            text = self.suggest(path, *words, layers=layers)
+            self.assertRegex(text, "own_low.prm, .*own_high.prm; next: .* --band")
+            name = "Relative density" if not layers else "Friction angle"
+            values = []
+            for end in ("_low", "", "_high"):
+                scene = path.with_name(f"own{end}.prm")
+                self.run_program(SUCCESS, scene, "--validate", "--strict")
+                entries = read_parameters([str(scene)])
+                self.assertEqual(entries["Output/Directory"], f"results/own{end}")
+                values.append(float(entries[f"Soil/Layer 1/{name}"]))
+            self.assertEqual(values, sorted(set(values)))
+            self.caisson_study(path.with_suffix(".toml"))
+
+    def caisson_study(self, file: Path) -> None:
+        """Let the program read the runs of a study."""
+        study = tomllib.loads(file.read_text(encoding="utf-8"))
+        is_spread = study.get("sampling") == "Latin hypercube"
+        for parameter in study["parameters"].values() if is_spread else ():
+            for entry, value in parameter["times"].items():
+                change = ["--set", f"{entry}=1.05*({value})"]
+                scene = file.with_suffix(".prm")
+                self.run_program(SUCCESS, scene, *change, "--validate")
+
+
 class Layers(SuggestTest):
     """Layers, and the study of their angles."""
 

@@ -98,9 +98,8 @@ def quarters_of(
     table, ends = installation.quarters_of(run, found, end, planned), ends_of(run)
     if not table or not ends:
         return table
-    depths = planned * np.array([0.25, 0.5, 0.75, 1.0])
     columns = {
-        estimate: [required_at(member, depth, run.shown) for depth in depths]
+        estimate: [required_at(member, depth, run.shown) for depth in table["depths"]]
         for estimate, member in ends.items()
     }
     head, *heads = table["heads"][1:]

@@ -395,7 +395,8 @@ def quarters_of(
         rows.append([place, needs, limit, known.governing(i)])
     of_planned = f"penetration, of {shown.length(planned)} planned"
     heads = [of_planned, "required suction (kPa)", "allowable (kPa)", "governed by"]
-    return {"heads": [shown.named(head) for head in heads], "rows": rows}
+    heads = [shown.named(head) for head in heads]
+    return {"heads": heads, "rows": rows, "depths": sorted(places)}
 
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
