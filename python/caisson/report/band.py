@@ -9,7 +9,7 @@ from caisson.band import BEST, HIGH, LOW, band_of
 from caisson.design.reasons import text_of
 from caisson.report import installation
 from caisson.report.installation import NOTHING, Installation, Rate
-from caisson.report.verdict import REMEDIES, Verdict, verdict_of
+from caisson.report.verdict import Verdict, verdict_of
 from caisson.results import Results
 from caisson.shown import Units
 
@@ -55,12 +55,11 @@ def sentence_of(run: Results) -> str:
 
 
 def verdict_with(run: Results) -> Verdict:
-    """Return the verdict on a run with that on low and high resistance, in place of
-    what helps any caisson."""
+    """Return the verdict on a run with that on low and high resistance."""
     best, ends = verdict_of(run), sentence_of(run)
     if not ends:
         return best
-    return best._replace(text=f"{best.text.removesuffix(REMEDIES).rstrip()} {ends}")
+    return best._replace(text=f"{best.text} {ends}")
 
 
 def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
@@ -94,22 +93,16 @@ def quarters_of(
     run: Results, found: Installation, end: float | None, planned: float
 ) -> dict[str, Any]:
     """Return the table of the suction at quarters of the planned penetration (m), with
-    columns for low and high resistance. end: where suction ends (m), or None."""
+    rows for low and high resistance. end: where suction ends (m), or None."""
     table, ends = installation.quarters_of(run, found, end, planned), ends_of(run)
     if not table or not ends:
         return table
-    columns = {
-        estimate: [required_at(member, depth, run.shown) for depth in table["depths"]]
+    (name, *needs), *rows = table["rows"]
+    required = {BEST: needs} | {
+        estimate: [required_at(member, x, run.shown) for x in table["depths"]]
         for estimate, member in ends.items()
     }
-    head, *heads = table["heads"][1:]
-    low = [f"{head}, {LOW}"] if LOW in columns else []
-    best = f"{head}, {BEST}"
-    high = [HIGH] if HIGH in columns else []
-    heads = [table["heads"][0], *low, BEST if low else best, *high, *heads]
-    rows = []
-    for i, (place, needs, *rest) in enumerate(table["rows"]):
-        sides = [[columns[e][i]] if e in columns else [] for e in (LOW, HIGH)]
-        rows.append([place, *sides[0], needs, *sides[1], *rest])
+    sides = [e for e in (LOW, BEST, HIGH) if e in required]
     names = " and ".join(member.directory.resolve().name for member in ends.values())
-    return {"heads": heads, "rows": rows, "ends": names}
+    of_all = [[f"{name}, {estimate}", *required[estimate]] for estimate in sides]
+    return table | {"rows": of_all + rows, "ends": names}

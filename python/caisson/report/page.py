@@ -10,12 +10,13 @@ import numpy as np
 
 from caisson.template import template
 from caisson import plot
+from caisson.plot import limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, Table
-from caisson.report import band, content, installation, layers, methods, pull, scene
-from caisson.report import sketch, verdict
+from caisson.report import band, content, installation, layers, methods, pull
+from caisson.report import remedies, scene, sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
@@ -281,12 +282,15 @@ def of_installation(
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     if found is None:
-        return {"tables": [], "quarters": {}, "bar": ""}
+        names = ("tables", "quarters", "bar", "factors", "remedies")
+        return dict.fromkeys(names, "")
     planned = scene.end_of(run) or float(found.depth[-1])
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
+        "factors": limits.sources_of(found.factors, found.limits),
         "quarters": band.quarters_of(run, found, end, planned),
+        "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),
     }
