@@ -64,8 +64,8 @@ namespace CaissonMPM
     rings.clear();
     for (const std::string &text : Utilities::split_string_list(rings_text))
       {
-        const auto x = Utilities::string_to_double(
-          Utilities::split_string_list(text, ":"));
+        const auto x =
+          Utilities::string_to_double(Utilities::split_string_list(text, ":"));
         rings.push_back({x[0], x[1], x[2]});
       }
   }
@@ -150,7 +150,8 @@ namespace CaissonMPM
                          meters(high) + ".");
         if (flush == Flush::outer && thickness >= plain.right)
           throw BadInput("Rigid body/Wall steps: a thickness of " +
-                         meters(thickness) + " leaves no soil plug within the "
+                         meters(thickness) +
+                         " leaves no soil plug within the "
                          "outer radius of " +
                          meters(plain.right) + ". Reduce it.");
       }

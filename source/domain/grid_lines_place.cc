@@ -190,7 +190,7 @@ namespace CaissonMPM
                          const std::string &entry)
   {
     constexpr double smallest = .5; // of a cell
-    const auto       check    = [&](std::vector<double> lines, const char *what) {
+    const auto       check = [&](std::vector<double> lines, const char *what) {
       std::sort(lines.begin(), lines.end());
       for (std::size_t i = 0; i + 1 < lines.size(); ++i)
         if (const double gap = lines[i + 1] - lines[i];
@@ -198,14 +198,22 @@ namespace CaissonMPM
           throw BadInput(
             std::string("The mesh at the body would have a ") + what + " of " +
             meters(gap) + " between its faces, less than half of a cell of " +
-            meters(fine) + ". Move a step, ring or edge of the tip, or choose " +
-            entry + " for cells of " + meters(gap / smallest) + " or less.");
+            meters(fine) +
+            ". Move a step, ring or edge of the tip, or choose " + entry +
+            " for cells of " + meters(gap / smallest) + " or less.");
     };
     std::vector<double> radii   = body.radii_of_tip(),
                         heights = {body.bottom() + body.tip_height()};
+    constexpr double least      = 2.; // cells across a ring
     for (unsigned int i = 0; i < body.n_parts(); ++i)
       {
-        const BodyPart part = body.part(i);
+        const BodyPart part  = body.part(i);
+        const double   width = part.right - part.left;
+        if (body.is_ring(i) && width < least * fine * (1. - 1e-6))
+          throw BadInput("Rigid body/Rings: a ring " + meters(width) +
+                         " wide is less than two cells of " + meters(fine) +
+                         " wide. Choose " + entry + " for cells of " +
+                         meters(width / least) + " or less.");
         radii.insert(radii.end(), {part.left, part.right});
         heights.push_back(part.top);
         if (i > 0)
@@ -252,7 +260,7 @@ namespace CaissonMPM
       check_parts(body, fine, finest.second);
     const double from = body.n_parts() > 1 ? extent.left : left,
                  to   = body.n_parts() > 1 ? extent.right : right;
-    const auto   size = [=, right = right](const double r) {
+    const auto size   = [=, right = right](const double r) {
       if (expands && r < right)
         return right - inner_radius;
       const double distance = std::max({from - r, r - to, 0.}) - fine_width;
@@ -467,10 +475,10 @@ namespace CaissonMPM
     // beside an edge that is not in the middle, rows become level again
     const double left      = columns[body_column_begin],
                  right     = columns[body_column_end];
-    const auto   at_distance = [&](const double of_side, const double distance) {
+    const auto at_distance = [&](const double of_side, const double distance) {
       return of_side < 1e-9 ?
-                 0. :
-                 of_side * std::max(0., 1. - distance / (right - left));
+               0. :
+               of_side * std::max(0., 1. - distance / (right - left));
     };
     for (unsigned int i = 0; i < body_column_begin; ++i)
       dip[i] = at_distance(dip[body_column_begin], left - columns[i]);

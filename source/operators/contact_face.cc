@@ -32,7 +32,7 @@ namespace CaissonMPM
         }
       const Vector2 along  = x[1] - x[0];
       const double  length = along.norm();
-      face.surface = surfaces[f];
+      face.surface         = surfaces[f];
       if (face.surface == tip && !grid.is_lowest(cell))
         face.surface = grid.is_lid(cell) ? lid : ring;
       face.normal[0] = along[1] / length;

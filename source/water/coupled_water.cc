@@ -228,10 +228,13 @@ namespace CaissonMPM
   void
   CoupledWater::integrate_over_tip()
   {
-    tip.integrate(scene.grid,
-                  [this](const unsigned int cell, const unsigned int) {
-                    return projection.pressure_in(cell);
-                  });
+    tip.integrate(
+      scene.grid,
+      [this](const unsigned int cell, const unsigned int) {
+        return projection.pressure_in(cell);
+      },
+      -suction(),
+      &mudline);
   }
 
   WaterFlow
@@ -245,7 +248,7 @@ namespace CaissonMPM
     result.plug_rate      = plug_rate;
     result.response       = projection.conductance_of_plug();
     if (suction() > 0. && tip.area() > 0.)
-      result.pressure_factor = -tip.value() / tip.area() / suction();
+      result.pressure_factor = -tip.at_tip() / tip.area() / suction();
     result.n_iterations = projection.solver().n_iterations();
     return result;
   }

@@ -176,7 +176,7 @@ namespace CaissonMPM
   double
   LidCompartment::area() const
   {
-    const double inner = scene.body.shape().left_at_top();
+    const double inner = scene.body.shape().left();
     return pi * inner * inner;
   }
 

@@ -140,6 +140,13 @@ namespace CaissonMPM
       return {left(), right(), bottom(), top()};
     }
 
+    /** Whether a part is a ring inside the wall. */
+    virtual bool
+    is_ring(const unsigned int /*i*/) const
+    {
+      return false;
+    }
+
     /** Whether faces above the tip look down, besides those of a lid. */
     virtual bool
     has_ledges() const

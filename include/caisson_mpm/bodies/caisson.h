@@ -17,8 +17,8 @@
 
 namespace CaissonMPM
 {
-  /** The extent is that of the skirt, as thick as at the tip. A lid reaches from the axis to the skirt,
-   * with its upper face at the skirt's top. */
+  /** The extent is that of the skirt, as thick as at the tip. A lid reaches
+   * from the axis to the skirt, with its upper face at the skirt's top. */
   class Caisson : public BodyShape
   {
   public:
@@ -167,8 +167,9 @@ namespace CaissonMPM
                    from_edge = std::abs(r - edge()),
                    from_side = .5 * wall_thickness - std::abs(r - middle);
       // an edge at a side stays sharp
-      const bool is_sharp = tip == Tip::triangular &&
-                            (r < middle ? edge_of_tip <= 0. : edge_of_tip >= 1.);
+      const bool is_sharp =
+        tip == Tip::triangular &&
+        (r < middle ? edge_of_tip <= 0. : edge_of_tip >= 1.);
       return bottom() + std::min(slope() * from_edge, height_of_faces()) +
              (is_sharp ? 0. : bevel()) *
                std::clamp(1. - from_side / cell_width(), 0., 1.);
@@ -192,6 +193,12 @@ namespace CaissonMPM
     part(const unsigned int i) const override
     {
       return wall.part(i, plain_wall());
+    }
+
+    bool
+    is_ring(const unsigned int i) const override
+    {
+      return wall.is_ring(i);
     }
 
     bool
@@ -296,8 +303,8 @@ namespace CaissonMPM
     double
     height_of_faces() const
     {
-      return slope() * (std::max(edge_of_tip, 1. - edge_of_tip) *
-                        wall_thickness);
+      return slope() *
+             (std::max(edge_of_tip, 1. - edge_of_tip) * wall_thickness);
     }
 
     /** Of the tip's faces. */

@@ -53,6 +53,12 @@ namespace CaissonMPM
       return 1 + steps.size() + rings.size();
     }
 
+    bool
+    is_ring(const unsigned int i) const
+    {
+      return i > steps.size();
+    }
+
     /** Return the pieces of the wall from below, and then the rings. */
     BodyPart
     part(const unsigned int i, const BodyPart &plain) const;
@@ -85,8 +91,9 @@ namespace CaissonMPM
     BodyPart
     ring(const Ring &r, const BodyPart &plain) const;
     void
-    check_steps(const BodyPart &plain, const double low, const double high)
-      const;
+    check_steps(const BodyPart &plain,
+                const double    low,
+                const double    high) const;
     void
     check_ring(const unsigned int i,
                const BodyPart    &plain,

@@ -494,12 +494,12 @@ namespace CaissonMPM
       }
     };
     // the parts of the body, the first of which is at the tip, and its lid
-    std::vector<Range>  body_ranges;
-    Range               lid;
-    unsigned int        body_column_begin = 0, body_column_end = 0; // at the tip
-    unsigned int        body_row_begin   = 0;
-    double              expanding_radius = 0.; // of a cylinder, else 0
-    double              shoulder = 0., decay_below = 1., decay_above = 1.;
+    std::vector<Range> body_ranges;
+    Range              lid;
+    unsigned int       body_column_begin = 0, body_column_end = 0; // at the tip
+    unsigned int       body_row_begin   = 0;
+    double             expanding_radius = 0.; // of a cylinder, else 0
+    double             shoulder = 0., decay_below = 1., decay_above = 1.;
     std::vector<double> dip; // [columns] of the rows below the shoulder
   };
 } // namespace CaissonMPM
