@@ -86,6 +86,11 @@ namespace CaissonMPM
   {
     bottom_expression().at_time(0.);
     FlowingWater::check_parameters();
+    if (scene.body.shape().n_parts() > 1)
+      throw BadInput(
+        "Water/Level is coupled, and the wall has Rigid body/Wall steps or "
+        "Rings: coupled water cannot leave the soil beside the gap above them. "
+        "Set Level = seepage or undrained, or leave them out.");
     const PressureSolver::OpenSides &open = scene.settings.sides;
     if (!lid && !open.surface && !open.outer && !open.bottom)
       throw BadInput(
@@ -233,8 +238,8 @@ namespace CaissonMPM
       [this](const unsigned int cell, const unsigned int) {
         return projection.pressure_in(cell);
       },
-      -suction(),
-      &mudline);
+      0.,
+      [](const unsigned int) { return 0.; }); // neither steps nor rings
   }
 
   WaterFlow

@@ -139,7 +139,9 @@ namespace CaissonMPM
           scene.grid.cell_nodes(cell).node[corner]);
       },
       1.,
-      &mudline);
+      [this](const unsigned int cell) {
+        return mudline.filled()[cell] >= Mudline::touching ? 1. : 0.;
+      });
     const auto sums  = seepage.solver().sums_by_state(seepage.residual());
     flow_out         = sums[PressureSolver::plug];
     flow_in          = -sums[PressureSolver::open];

@@ -31,23 +31,21 @@ namespace CaissonMPM
            const Mudline        &mudline);
 
     /** Integrate value(cell, corner), which is @p in_plug in the water under
-     * the lid. Steps and rings count where the cell is filled with soil; null:
-     * all. Collective. */
-    template <typename Function>
+     * the lid, over the tip, and over the share(cell) of a step or ring that
+     * soil covers. Collective. */
+    template <typename Function, typename Share>
     void
     integrate(const BackgroundGrid &grid,
               const Function       &value,
-              const double          in_plug = 0.,
-              const Mudline        *mudline = nullptr)
+              const double          in_plug,
+              const Share          &share)
     {
       std::array<double, 3> sums = {{0., 0., 0.}};
       for (const Ledge &ledge : ledges)
-        if (mudline == nullptr ||
-            mudline->filled()[ledge.cell] >= Mudline::touching)
-          for (unsigned int i = 0; i < 2; ++i)
-            sums[2] +=
-              ledge.areas[i] * (value(ledge.cell, ledge.first_corner + i) -
-                                (ledge.is_inside ? in_plug : 0.));
+        for (unsigned int i = 0; i < 2; ++i)
+          sums[2] += share(ledge.cell) * ledge.areas[i] *
+                     (value(ledge.cell, ledge.first_corner + i) -
+                      (ledge.is_inside ? in_plug : 0.));
       for (const unsigned int cell : cells)
         {
           const auto area = areas_at_tip(grid, cell);
