@@ -16,6 +16,8 @@ namespace CaissonMPM
 
   namespace
   {
+    constexpr double near = 1e-6; // m
+
     std::string
     meters(const double x)
     {
@@ -143,7 +145,7 @@ namespace CaissonMPM
           throw BadInput("Rigid body/Wall steps: " + meters(height) +
                          " follows " + meters(listed[i - 1].first) +
                          ". List the steps from below.");
-        if (height <= low || height >= high)
+        if (height < low + near || height > high - near)
           throw BadInput("Rigid body/Wall steps: " + meters(height) +
                          " must lie between the tip, " + meters(low) +
                          " high, and the lid or the end of the wall at " +
@@ -170,7 +172,7 @@ namespace CaissonMPM
     if (i > 0 && own.place <= rings[i - 1].place + rings[i - 1].height)
       throw BadInput(entry + " touches the one before it. List rings from "
                              "below, with a distance between them.");
-    if (own.place <= low || top >= high)
+    if (own.place < low + near || top > high - near)
       throw BadInput(entry + " must lie between the tip, " + meters(low) +
                      " high, and the lid or the end of the wall at " +
                      meters(high) + ".");

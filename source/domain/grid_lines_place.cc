@@ -186,41 +186,44 @@ namespace CaissonMPM
 
   void
   GridLines::check_parts(const BodyShape   &body,
-                         const double       fine,
+                         const double       cell,
+                         const double       line_spacing,
                          const std::string &entry)
   {
-    constexpr double smallest = .5; // of a cell
-    const auto       check = [&](std::vector<double> lines, const char *what) {
+    constexpr double smallest = .5, least = 2.; // cells in a gap, at a ring
+    const auto refuse = [&](const std::string &what, const double needed) {
+      throw BadInput(what + " of " + meters(cell) + " (" + entry +
+                     "). Cells of " + meters(needed) +
+                     " or less are needed: increase Rigid body/Cells across "
+                     "the wall, or set Grid/Fine cell size.");
+    };
+    const auto check = [&](std::vector<double> lines, const char *direction) {
       std::sort(lines.begin(), lines.end());
       for (std::size_t i = 0; i + 1 < lines.size(); ++i)
         if (const double gap = lines[i + 1] - lines[i];
-            gap > 1e-9 && gap < smallest * fine * (1. - 1e-6))
-          throw BadInput(
-            std::string("The mesh at the body would have a ") + what + " of " +
-            meters(gap) + " between its faces, less than half of a cell of " +
-            meters(fine) +
-            ". Move a step, ring or edge of the tip, or choose " + entry +
-            " for cells of " + meters(gap / smallest) + " or less.");
+            gap > 1e-9 && gap < smallest * line_spacing * (1. - 1e-6))
+          refuse("Two faces of the body are " + meters(gap) + " apart in " +
+                   direction + ", less than half of a cell",
+                 gap / smallest * cell / line_spacing);
     };
     std::vector<double> radii   = body.radii_of_tip(),
-                        heights = {body.bottom() + body.tip_height()};
-    constexpr double least      = 2.; // cells across a ring
+                        heights = {body.bottom() + body.tip_height(),
+                                   body.lower_face_of_lid()};
     for (unsigned int i = 0; i < body.n_parts(); ++i)
       {
         const BodyPart part  = body.part(i);
         const double   width = part.right - part.left;
-        if (body.is_ring(i) && width < least * fine * (1. - 1e-6))
-          throw BadInput("Rigid body/Rings: a ring " + meters(width) +
-                         " wide is less than two cells of " + meters(fine) +
-                         " wide. Choose " + entry + " for cells of " +
-                         meters(width / least) + " or less.");
+        if (body.is_ring(i) && width < least * cell * (1. - 1e-6))
+          refuse("Rigid body/Rings: a ring " + meters(width) +
+                   " wide is less than two cells",
+                 width / least);
         radii.insert(radii.end(), {part.left, part.right});
         heights.push_back(part.top);
         if (i > 0)
           heights.push_back(part.bottom);
       }
-    check(radii, "column");
-    check(heights, "row");
+    check(radii, "r");
+    check(heights, "z");
   }
 
   GridLines::Spacing
@@ -257,7 +260,7 @@ namespace CaissonMPM
       for (const double r : {body.part(i).left, body.part(i).right})
         fixed.push_back({r, "a step or ring of the wall"});
     if (fixed.size() > 4)
-      check_parts(body, fine, finest.second);
+      check_parts(body, finest.first, fine, finest.second);
     const double from = body.n_parts() > 1 ? extent.left : left,
                  to   = body.n_parts() > 1 ? extent.right : right;
     const auto size   = [=, right = right](const double r) {

@@ -318,11 +318,12 @@ namespace CaissonMPM
     /** Return the smallest rectangle around the body. */
     static BodyPart
     extent_of(const BodyShape &body);
-    /** Throw BadInput where steps and rings of the wall are smaller than cells
-     * of this size, which an entry sets. */
+    /** Throw BadInput where steps and rings of the wall need smaller cells than
+     * those of this size, which an entry sets, between lines at a distance. */
     static void
     check_parts(const BodyShape   &body,
-                const double       fine,
+                const double       cell,
+                const double       line_spacing,
                 const std::string &entry);
     Spacing
     spacing_in_r(const BodyShape &body) const;
