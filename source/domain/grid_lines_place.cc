@@ -171,19 +171,6 @@ namespace CaissonMPM
     return lowest;
   }
 
-  BodyPart
-  GridLines::extent_of(const BodyShape &body)
-  {
-    BodyPart extent = body.part(0);
-    for (unsigned int i = 1; i < body.n_parts(); ++i)
-      {
-        const BodyPart part = body.part(i);
-        extent.left         = std::min(extent.left, part.left);
-        extent.right        = std::max(extent.right, part.right);
-      }
-    return extent;
-  }
-
   void
   GridLines::check_parts(const BodyShape   &body,
                          const double       cell,
@@ -241,11 +228,15 @@ namespace CaissonMPM
                      meters(right) + ", must exceed Grid/Inner radius = " +
                      meters(inner_radius) +
                      ". Reduce Grid/Inner radius, for instance to 0.");
-    const BodyPart extent = extent_of(body);
-    if (std::min(left, extent.left) < inner_radius ||
-        std::max(right, extent.right) > outer_radius)
-      throw BadInput("The body, from r = " + meters(left) + " to " +
-                     meters(right) + ", does not fit in the mesh, from r = " +
+    double from = left, to = right; // with rings and steps
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      {
+        from = std::min(from, body.part(i).left);
+        to   = std::max(to, body.part(i).right);
+      }
+    if (from < inner_radius || to > outer_radius)
+      throw BadInput("The body, from r = " + meters(from) + " to " +
+                     meters(to) + ", does not fit in the mesh, from r = " +
                      meters(inner_radius) + " to " + meters(outer_radius) +
                      ". Change Grid/Outer radius or the body.");
     const auto   finest = finest_cell(body, cell_width, "Grid/Cell width");
@@ -261,9 +252,7 @@ namespace CaissonMPM
         fixed.push_back({r, "a step or ring of the wall"});
     if (fixed.size() > 4)
       check_parts(body, finest.first, fine, finest.second);
-    const double from = body.n_parts() > 1 ? extent.left : left,
-                 to   = body.n_parts() > 1 ? extent.right : right;
-    const auto size   = [=, right = right](const double r) {
+    const auto size = [=, right = right](const double r) {
       if (expands && r < right)
         return right - inner_radius;
       const double distance = std::max({from - r, r - to, 0.}) - fine_width;

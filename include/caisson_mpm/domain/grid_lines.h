@@ -315,9 +315,6 @@ namespace CaissonMPM
     /** Return the lowest face above the tip that must be level. Units: m. */
     static double
     lowest_ledge(const BodyShape &body);
-    /** Return the smallest rectangle around the body. */
-    static BodyPart
-    extent_of(const BodyShape &body);
     /** Throw BadInput where steps and rings of the wall need smaller cells than
      * those of this size, which an entry sets, between lines at a distance. */
     static void
