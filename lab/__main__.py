@@ -62,6 +62,7 @@ GROUPS: Groups = {
         "tip": (STUDY, "study the tip force of prm/jack_coarse.prm"),
         "drainage": (STUDY, "study the resistance between the limits of drainage"),
         "tension": (STUDY, "study the pull of a sealed caisson over its rate"),
+        "surface": (STUDY, "compare quantiles of twenty runs with those of 200"),
         "study": (STUDY, "run and evaluate a study of any kind from its file"),
         "scene-results": (
             "lab.studies.scene_results",

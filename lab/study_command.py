@@ -21,6 +21,7 @@ KINDS = study_command.KINDS | {
     "forces": "lab.studies.forces",
     "drainage": "lab.studies.drainage",
     "tension": "lab.studies.tension",
+    "surface": "lab.studies.surface",
     "speed": "lab.performance",
 }
 # the studies that have a command of their own
@@ -34,6 +35,7 @@ STUDIES = {
     "tip": LAB / "studies/tip_study.toml",
     "drainage": LAB / "studies/drainage_study.toml",
     "tension": LAB / "studies/tension_study.toml",
+    "surface": LAB / "studies/surface_study.toml",
     "speed": LAB / "performance/speed.toml",
 }
 

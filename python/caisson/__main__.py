@@ -19,6 +19,7 @@ GROUPS: Groups = {
             "run a scene, draw its pictures, write its report",
         ),
         "study": ("caisson.study_command", "run and evaluate many runs of a scene"),
+        "park": ("caisson.commands.park", "run many positions, each with its page"),
         "error-bar": ("caisson.error.command", "compute the error bar of a scene"),
     },
     "results": {
@@ -29,11 +30,12 @@ GROUPS: Groups = {
             "draw or print the forces of several runs",
         ),
         "export": ("caisson.export.command", "give the soil to other programs"),
+        "log": ("caisson.log", "compare a run with the log of the vessel"),
     },
 }
 COMMANDS = commands_of(GROUPS)
 # those that import what they need only after they have computed or read something
-LATE = {"cpt", "plot", "report", "export"}
+LATE = {"cpt", "park", "plot", "report", "export", "log"}
 ELSEWHERE = (
     "Verification, validation, stability and speed are commands of scripts/lab, and"
     " tools for developers of tools/workshop."

@@ -11,6 +11,7 @@ from caisson.results import Results
 LOW, BEST, HIGH = "low", "best", "high"
 ESTIMATES = (LOW, BEST, HIGH)
 SCENE = ".prm"
+SAME = ("diameter_m", "skirt_length_m", "wall_thickness_m", "submerged_weight_N")
 
 
 def member_of(best: Path, estimate: str) -> Path:
@@ -21,12 +22,19 @@ def member_of(best: Path, estimate: str) -> Path:
     return best.with_name(f"{name}_{estimate}{best.name[len(name):]}")
 
 
+def caisson_of(run: Results) -> list[object]:
+    """Return what the runs of a band have in common: sizes and weight."""
+    return [run.scene.get(name) for name in SAME]
+
+
 def band_of(run: Results) -> dict[str, Results]:
     """Return the runs of the band around a best estimate that exist, by estimate, that
-    run included."""
+    run included; one of another caisson is none of them."""
     found = {BEST: run}
     for estimate in (LOW, HIGH):
         directory = member_of(run.directory, estimate)
         if (directory / "history.csv").is_file():
-            found[estimate] = Results(directory)
+            member = Results(directory)
+            if caisson_of(member) == caisson_of(run):
+                found[estimate] = member
     return {estimate: found[estimate] for estimate in ESTIMATES if estimate in found}

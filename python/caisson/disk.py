@@ -128,6 +128,17 @@ def save(figure: Any, path: Path, dpi: int = 150) -> Path:
     return write(path, buffer.getvalue())
 
 
+def save_pages(figures: Iterable[Any], path: Path) -> Path:
+    """Write figures of matplotlib as the pages of a .pdf file; return the path."""
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    buffer = io.BytesIO()
+    with PdfPages(buffer) as pages:
+        for figure in figures:
+            pages.savefig(figure)
+    return write(path, buffer.getvalue())
+
+
 @contextlib.contextmanager
 def all_or_none(overwrite: bool) -> Iterator[None]:
     """Let write() wait for the end of the block, and then write all files: none where

@@ -25,6 +25,10 @@ MODULES = {
 TABLES = {"pandas": "python3-pandas"}
 # of cone tests in workbooks (.xlsx), without which all else works
 WORKBOOKS = {"openpyxl": "python3-openpyxl"}
+# of studies on many machines (caisson.dask_runs)
+DASK = {"distributed": "python3-distributed"}
+# of the response surface of a study, without which its quantiles are those of its runs
+SURFACES = {"sklearn": "python3-sklearn"}
 JAVASCRIPT = Path("/usr/share/javascript")
 # of a report, which has a copy of them
 SCRIPTS = {
@@ -65,6 +69,7 @@ def complaint() -> str:
 
 
 if __name__ == "__main__":
-    workbooks = {m: package for m, package in WORKBOOKS.items() if not is_there(m)}
-    for package in sorted({*missing().values(), *workbooks.values()}):
+    others = WORKBOOKS | SURFACES
+    wanted = {m: package for m, package in others.items() if not is_there(m)}
+    for package in sorted({*missing().values(), *wanted.values()}):
         print(package)

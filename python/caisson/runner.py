@@ -182,6 +182,7 @@ class Run:
         self.scene, self.entries = scene, dict(entries or {})
         self.directory = directory or Path(self.parameter("Output/Directory", program))
         self.ranks, self.binding, self.program = ranks, binding, program
+        self.restarts = False  # from its checkpoint
 
     def parameter(self, name: str, program: Path) -> str:
         """Return one entry in effect."""
@@ -322,7 +323,8 @@ class Run:
         """
         if is_locked(self.directory):
             raise RunError(f"another process computes in {self.directory}")
-        command = [*self.command(ranks), *self.make_room()]
+        how = ["--restart"] if self.restarts else self.make_room()
+        command = [*self.command(ranks), *how]
         begin = time.monotonic()
         with open(self.directory / "log", "a", encoding="utf-8") as log:
             process = subprocess.Popen(

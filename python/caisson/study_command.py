@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 
-from caisson import needed
+from caisson import dask_runs, needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import span
 from caisson.ranks import Size, cores, plan
@@ -32,7 +32,7 @@ from caisson.study import (
 )
 
 # those of users; the laboratory has more
-KINDS = {"parameters": "caisson.parameters"}
+KINDS = {"parameters": "caisson.parameters", "park": "caisson.commands.park_study"}
 # runs for each core above which several ranks gain nothing that matters, and the
 # duration of a run (s) below which it is not worth to ask for its size
 FEW, LONG = 4, 20
@@ -89,6 +89,8 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
     add("--part", type=part_of, metavar="K/N", help=text)
+    text = "run on the workers of this scheduler of Dask, such as tcp://host:8786"
+    add("--dask", metavar="ADDRESS", help=text)
     add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
     add("--results", type=Path, help="directory of the results")
 
@@ -183,8 +185,11 @@ def run_and_evaluate(
         if arguments.part:
             runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
         limit = getattr(module, "TIME_LIMIT", None)
-        shares = shares_of(to_do_of(runs, arguments.again), jobs)
-        execute(shares, arguments.again, limit)
+        to_do = to_do_of(runs, arguments.again)
+        if arguments.dask:
+            dask_runs.execute(to_do, arguments.dask, arguments.again, limit)
+        else:
+            execute(shares_of(to_do, jobs), arguments.again, limit)
         if arguments.part:
             return report_part(runs, arguments)
     minutes = (time.monotonic() - begin) / 60

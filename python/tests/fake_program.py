@@ -5,11 +5,13 @@ force, and a file `calls` beside the results that counts the runs.
 
 Entries: Soil/Friction angle (30), Soil/Stiffness (5e6), Soil/Kind (sand). It refuses an
 angle below 0 with --validate, and breaks off at 3 m where it is above 40. The variable
-FAKE_PROGRAM_POINTS makes --validate report a number of points.
+FAKE_PROGRAM_POINTS makes --validate report a number of points, and FAKE_PROGRAM_HOLDS
+names the directory of a run that does not end.
 """
 import argparse
 import os
 import sys
+import time
 from pathlib import Path
 
 ENTRIES = {
@@ -39,6 +41,8 @@ def run(entries: dict[str, str], directory: Path) -> int:
     directory.mkdir(parents=True, exist_ok=True)
     with open(directory.parent / "calls", "a", encoding="utf-8") as calls:
         calls.write(directory.name + "\n")
+    if directory.name == os.environ.get("FAKE_PROGRAM_HOLDS"):
+        time.sleep(3600)  # the test ends it
     breaks_off = float(entries["Soil/Friction angle"]) > 40
     depths = [0.5 + 0.01 * i for i in range(251 if breaks_off else 401)]
     rows = [f"{d},{d:.2f},{force(entries, d)}" for d in depths]

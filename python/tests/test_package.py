@@ -26,11 +26,11 @@ COMMANDS = {
     "scripts/lab": lab.__main__.COMMANDS,
     "tools/workshop": caisson_workshop.__main__.COMMANDS,
 }
-MOST_COMMANDS, MOST_LINES = 10, 22_550  # of the user's package
+MOST_COMMANDS, MOST_LINES = 12, 26_800  # of the user's package
 
 
 # of the package, in the order in which one may import another one
-FOLDERS = "design plot error parameters export report suggest commands".split()
+FOLDERS = "design plot error parameters export report log suggest commands".split()
 
 
 FILES = sorted((ROOT / "python/caisson").rglob("*.py"))

@@ -12,6 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import error_bounds
+from caisson.plot import limits
 from caisson.results import Results
 from caisson.report import content, installation, layers, methods, sketch
 from caisson.report import page as page_module
@@ -151,10 +152,19 @@ class Cards(WithPage):
         )
         shown.append(content.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
         self.assertAlmostEqual(content.axis_end(shown), 46.35)
-        for limit, words in ((46.0, ""), (47.0, "boils below the lid at 47 kPa")):
-            found.limits = {installation.BOILING: np.full(2, limit)}
-            self.assertIn(words, content.beyond_the_chart(found, shown))
-            self.assertEqual(bool(content.beyond_the_chart(found, shown)), bool(words))
+        none = limits.absent_of({limits.BOILING: np.empty(0)})
+        for limit, words in ((46.0, ""), (47.0, "water boils at 47 kPa")):
+            found.limits = {limits.BOILING: np.full(2, limit)}
+            said = content.beyond_the_chart(found, shown, 1.0)
+            self.assertIn(words, said)
+            self.assertEqual("Beyond" in said, bool(words))
+            for kind in none:
+                self.assertIn(kind, said)
+        found.lid = 1.4
+        self.assertIn("lid at about 1.4 m", content.beyond_the_chart(found, shown, 1.0))
+        allowable = np.full(2, 60.0), np.arange(2.0)
+        shown.append(content.line("allowable", "red", *allowable, full=True))
+        self.assertAlmostEqual(content.axis_end(shown), 61.8)
 
     def test_card_of_the_methods(self) -> None:
         """The first ratio that there is at the end."""

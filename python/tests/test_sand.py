@@ -14,7 +14,6 @@ from caisson import density_law, suggest
 from caisson.paths import SCENES
 from caisson.suggest import cone, sand
 from caisson.suggest.entry import Layer, SuggestError
-from caisson.suggest.sizes import LEVELS
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
 from caisson.design.assumed_cone import AssumedCone, Sand
@@ -65,7 +64,7 @@ def layers_in(*words: str) -> list[Layer]:
 
 def scene_in(*words: str) -> dict[str, str]:
     """Return the lines of a scene by entry."""
-    text = suggest.scene_of(options_of(*words), layers_in(*words), LEVELS[10])
+    text = suggest.scene_of(options_of(*words), layers_in(*words), Path("own.prm"))
     pairs = re.findall(r"set (.*?) *= (.*)", text)
     return {name: value for name, value in pairs}
 

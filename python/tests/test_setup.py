@@ -212,6 +212,7 @@ class Needed(unittest.TestCase):
     def test_all_imports_are_known(self) -> None:
         """Each library that the package imports is looked for."""
         modules = [*needed.MODULES, *needed.TABLES, *needed.WORKBOOKS]
+        modules += [*needed.SURFACES, *needed.DASK]
         known = {module.split(".")[0] for module in modules}
         others = ("design", "error", "export", "report")
         own = {"caisson", *(f"caisson_{name}" for name in others)}
@@ -231,7 +232,7 @@ class Needed(unittest.TestCase):
         text = control.read_text(encoding="utf-8").split("Package: caisson-mpm\n")[1]
         depends = re.split(r",\s+", text.split("Depends: ")[1].split("\nSuggests")[0])
         names = {part.split()[0] for part in depends}
-        every = needed.MODULES, needed.WORKBOOKS, needed.SCRIPTS
+        every = needed.MODULES, needed.WORKBOOKS, needed.SURFACES, needed.SCRIPTS
         brought = {package for some in every for package in some.values()}
         self.assertEqual(brought - names, set())
         self.assertIn(f"{VTK} | {PARAVIEW}", depends)

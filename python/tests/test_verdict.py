@@ -11,7 +11,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import evaluation
-from caisson.report import content, installation, verdict
+from caisson.report import content, installation, page, verdict
 from caisson.results import Results
 
 PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
@@ -65,13 +65,13 @@ class Verdicts(WithPage):
 
     def test_end_between_two_rows(self) -> None:
         """The exit gradient of 0.225 for each meter reaches 0.9 at 4 m, and that of
-        0.24 at 3.75 m."""
-        for factor, depth in ((2.25, 4.0), (2.4, 3.75)):
+        0.24 at 3.75 m, of which whole decimeters are said."""
+        for factor, depth in ((2.25, 4.0), (2.4, 3.7)):
             run = self.run_of()
             self.change_history(exit_gradient_wall=factor, exit_gradient_axis=factor)
             run = Results(self.path)
             found = verdict.verdict_of(run)
-            self.assertAlmostEqual(found.end or 0, depth, delta=0.02)
+            self.assertEqual(found.end, depth)
             self.assertEqual(found.reason, "piping")
 
     def test_nothing_of_what_is_deeper(self) -> None:
@@ -83,8 +83,9 @@ class Verdicts(WithPage):
         words = html.unescape(re.sub("<[^>]*>", " ", page.split("<script")[0]))
         self.assertNotIn("refusal", words)
         self.assertIn("Computed to 4.5 m, of which 3.5 m are feasible.", words)
-        self.assertRegex(words, r"50 %: 2.25 m\s+7.5\s+20\s+pump")
-        self.assertRegex(words, r"100 %: 4.5 m\s+not feasible")
+        self.assertRegex(words, r"75 %: 3.38 m\s+feasible: 3.5 m\s+100 %: 4.5 m")
+        self.assertRegex(words, r"suffices\)\s+7.5\s+18.8\s+20\s+not feasible")
+        self.assertRegex(words, r"governed by\s+pump\s+pump\s+pump\s")
         rate = installation.Rate()
         whole = installation.installation_of(run, rate)
         assert whole is not None
@@ -96,6 +97,13 @@ class Verdicts(WithPage):
                     self.assertLessEqual(max(curve["y"]), 3.5)
             gray = [c for c in figure["curves"] if c["color"] == content.GRAY]
             self.assertTrue(gray and all(min(c["y"]) > 3.5 for c in gray))
+
+    def test_no_warning_of_what_is_deeper(self) -> None:
+        """A warning that names a penetration below the end of suction is left out."""
+        texts = [f"it rises at a penetration of {h:g} m: soil" for h in (3.2, 4.25)]
+        ranked = [{"rank": "result", "text": text} for text in [*texts, "slow"]]
+        found = page.warnings_of({"results": {"warnings": ranked}}, 3.5)
+        self.assertEqual(found["result"], [texts[0], "slow"])
 
     def test_end_that_the_program_knows(self) -> None:
         """It is taken where the curves do not know better."""
@@ -164,7 +172,14 @@ class Verdicts(WithPage):
             text = verdict.keep(run)
         known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
         self.assertEqual(known.pop("verdict"), text)
+        rows = known.pop("limits")
         self.assertEqual(known, SUMMARY)
+        last = rows[-1]
+        self.assertEqual((last["penetration_m"], last["factor"]), (4.5, 1.0))
+        self.assertEqual(last["governed_by"], "piping, Houlsby & Byrne")
+        self.assertAlmostEqual(last["required_suction_Pa"], 30e3, delta=50)
+        self.assertAlmostEqual(last["required_suction_Pa"] / 0.57, 52.6e3, delta=500)
+        self.assertAlmostEqual(last["allowable_suction_Pa"], 52.6e3, delta=500)
         self.assertEqual(Results(self.path).summary["verdict"], text)
         verdict.keep(self.run_of(entries=PUMP))
         self.assertEqual(Results(self.path).summary["feasible_to_m"], 3.5)

@@ -66,6 +66,7 @@ namespace CaissonMPM
       for (const std::string free : {"Output/",
                                      "Run control/",
                                      "Verification/",
+                                     "Design/",
                                      "Time/End",
                                      "Installation/End"})
         if (begins_with(entry.path, free))

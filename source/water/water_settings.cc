@@ -110,10 +110,13 @@ namespace CaissonMPM
                                                  &open_sides,
                                                  &sea,
                                                  &suction,
-                                                 &feasibility};
+                                                 &feasibility,
+                                                 &design};
     std::vector<std::string>           unused;
     for (const Section *const group : groups)
-      if (std::find(used.begin(), used.end(), group) == used.end())
+      if (std::find(used.begin(),
+                    used.end(),
+                    group == &design ? &feasibility : group) == used.end())
         unused.insert(unused.end(),
                       group->entries().begin(),
                       group->entries().end());

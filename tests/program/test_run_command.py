@@ -10,7 +10,8 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-from program import BAD_INPUT, HERE, STOPPED, SUCCESS, ProgramTest, scene, summary
+from program import BAD_INPUT, HERE, STOPPED, SUCCESS, ProgramTest
+from program import history, scene, summary
 
 SHORT = ["--set", "Time/End penetration=0.52"]
 
@@ -89,6 +90,36 @@ class Run(ProgramTest):
         text = self.run_scene_and_draw(BAD_INPUT, *words, "--set", "Grid/Tip=1")
         self.assertEqual(text.count("bad input"), 1)
         self.assertFalse((path / "forces.png").exists())
+
+    def test_band(self) -> None:
+        """Three runs, one page of the best one; complete runs are not repeated, and
+        each is told what becomes of it."""
+        path = self.made_directory()
+        for end, angle in (("", 33), ("_low", 30), ("_high", 36)):
+            lines = [
+                f"include {scene('jack')}",
+                f"subsection Output\nset Directory = {path}/own{end}\nend",
+                "subsection Time\nset End penetration = 0.7\nend",
+                f"subsection Soil\nsubsection Layer 1\nset Friction angle = {angle}",
+                "end\nend",
+            ]
+            (path / f"own{end}.prm").write_text("\n".join(lines), encoding="utf-8")
+        best = path / "own.prm"
+        text = self.run_scene_and_draw(SUCCESS, "--band", best)
+        self.assertEqual(text.count("from its start"), 3)
+        self.assertRegex(text, "With low resistance .* at 0.7 m; with high resistance")
+        self.assert_drawn(path / "own")
+        page = (path / "own/report.html").read_text(encoding="utf-8")
+        self.assertTrue("total, low to high resistance" in page)
+        low, high = (history(path / f"own_{end}") for end in ("low", "high"))
+        self.assertGreater(high[-1]["total_force_N"], low[-1]["total_force_N"])
+        (path / "own_low/run_key.json").unlink()
+        text = self.run_scene_and_draw(SUCCESS, "--band", best)
+        self.assertEqual(text.count("complete, and not repeated; --overwrite"), 2)
+        self.assertIn("own_low: from its start", text)
+        self.assertEqual(history(path / "own_low"), low)
+        text = self.run_scene_and_draw(BAD_INPUT, "--band", best, "--ranks", 2)
+        self.assertIn("--band takes --set, --restart and --overwrite", text)
 
     def test_ctrl_c_leaves_a_checkpoint(self) -> None:
         """The terminal sends it to all; nothing may kill the program meanwhile."""

@@ -6,6 +6,8 @@ import json
 import unittest
 from typing import Any
 
+import numpy as np
+
 from program import (
     HERE,
     STOPPED,
@@ -20,6 +22,7 @@ from program import (
 )
 
 from caisson import evaluation
+from caisson.plot import limits
 
 SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
 SMALL: Entries = {
@@ -32,6 +35,7 @@ SMALL: Entries = {
     "Grid/Top": 3.5,
     "Time/End penetration": 1.3,
     "Water/Largest suction": 200e3,
+    "Design/Factor on pump": 1.25,
     "Output/Record interval": 0.05,
     "Output/Frame penetrations": "0.5, 3",
     "Output/Frame interval": 100,
@@ -91,6 +95,16 @@ class Schema(ProgramTest):
         self.assertRegex(said, r"\| suction +[\d.]+ kPa, gradient +\d+ % of critical")
         most = results["largest_suction"]["required_suction_Pa"]
         self.assertGreaterEqual(most, max(table["required_suction_Pa"]))
+        # section Design reaches Python, which has the same defaults
+        defaults = {f"Factor on {x.entry}": x.factor for x in limits.LIMITS.values()}
+        given = {k for k in found["defaults"] if k.startswith("Design/")}
+        names = {f"Design/{name}" for name in (defaults | limits.STEEL)}
+        self.assertEqual(given | {"Design/Factor on pump"}, names)
+        for name, value in (defaults | limits.STEEL).items():
+            if name != "Factor on pump":
+                self.assertEqual(float(found["defaults"][f"Design/{name}"]), value)
+        pump = limits.limits_of(run, np.array([1.2]))[limits.PUMP]
+        self.assertAlmostEqual(pump[0], 160)
         margins = results["margins"]
         self.assertAlmostEqual(margins["pump"]["least"], 1 - most / 200e3, places=6)
         self.assertLess(margins["piping"]["least"], 1)

@@ -84,6 +84,44 @@ class Sizes(SuggestTest):
                 self.assertEqual(suggested.try_case(case, options).faults, [])
 
 
+class Band(SuggestTest):
+    """Scenes of low and high resistance beside the best one."""
+
+    def test_scenes_are_accepted(self) -> None:
+        """In words, by a spread with its study, and by a cone test; each run has its
+        own directory, and the low one the lower strength."""
+        cases: list[tuple[list[str], tuple[str, ...]]] = [
+            (["--low", "0: phi = 30", "--high", "0: phi = 36"], (SAND,)),
+            (["--spread", "phi 5%, su 20%"], (SAND, "2: su = (10 + 2*d) kPa")),
+            (["--cpt", str(EXAMPLE)], ()),
+        ]
+        for words, layers in cases:
+            path = self.made_directory(f"{len(layers)}") / "own.prm"
+            words += ["--study", str(path.with_suffix(".toml"))]
+            text = self.suggest(path, *words, layers=layers)
+            self.assertRegex(text, "own_low.prm, .*own_high.prm; next: .* --band")
+            name = "Relative density" if not layers else "Friction angle"
+            values = []
+            for end in ("_low", "", "_high"):
+                scene = path.with_name(f"own{end}.prm")
+                self.run_program(SUCCESS, scene, "--validate", "--strict")
+                entries = read_parameters([str(scene)])
+                self.assertEqual(entries["Output/Directory"], f"results/own{end}")
+                values.append(float(entries[f"Soil/Layer 1/{name}"]))
+            self.assertEqual(values, sorted(set(values)))
+            self.caisson_study(path.with_suffix(".toml"))
+
+    def caisson_study(self, file: Path) -> None:
+        """Let the program read the runs of a study."""
+        study = tomllib.loads(file.read_text(encoding="utf-8"))
+        is_spread = study.get("sampling") == "Latin hypercube"
+        for parameter in study["parameters"].values() if is_spread else ():
+            for entry, value in parameter["times"].items():
+                change = ["--set", f"{entry}=1.05*({value})"]
+                scene = file.with_suffix(".prm")
+                self.run_program(SUCCESS, scene, *change, "--validate")
+
+
 class Layers(SuggestTest):
     """Layers, and the study of their angles."""
 
@@ -137,6 +175,20 @@ class Layers(SuggestTest):
                 float(entries[f"Rigid body/Friction angle of the {place}"]), 0
             )
         self.assertEqual(entries["Soil/Layer 1/Adhesion factor of the walls"], "0.4")
+
+    def test_clay_by_effective_stress_keeps_its_water(self) -> None:
+        """With suction it is undrained; beside sand it is refused."""
+        cam_clay = "Law = modified Cam clay, e = 1.2"
+        for layers in ((f"0: {cam_clay}",), (f"0: {cam_clay}", "3: su = 30 kPa")):
+            path = self.made_directory(f"of_{len(layers)}") / "own.prm"
+            self.suggest(path, "--weight", "300kN", layers=layers)
+            entries = read_parameters([str(path)])
+            self.assertEqual(entries["Water/Level"], "undrained")
+            self.run_program(SUCCESS, path, "--validate", "--strict")
+        path = self.made_directory() / "own.prm"
+        layers = ("0: Dr = 60%", f"2: {cam_clay}")
+        text = self.suggest(path, "--weight", "300kN", status=1, layers=layers)
+        self.assertIn("layer 2: modified Cam clay beside sand", text)
 
     def test_study_of_a_critical_angle(self) -> None:
         """It changes the entry that the law has."""
@@ -478,6 +530,20 @@ class Files(SuggestTest):
         self.assertEqual(entries["Soil/Layer 1/Solid density"], "2650")
         self.run_program(SUCCESS, path, "--validate", "--strict")
 
+    def test_angle_is_enough(self) -> None:
+        """The modulus of sand grows with its angle, as with its density."""
+        moduli = []
+        for angle in (30, 35, 40):
+            path = self.made_directory(f"of_{angle}") / "own.prm"
+            self.suggest(path, layers=(f"0: phi = {angle}",))
+            entries = read_parameters([str(path)])
+            moduli.append(float(entries["Soil/Layer 1/Youngs modulus"]))
+            self.assertRegex(path.read_text("utf-8"), "Youngs modulus .*ASSUMED: D_r")
+        self.assertLess(10e6, moduli[0])
+        self.assertLess(moduli[0], moduli[1])
+        self.assertLess(moduli[1], moduli[2])
+        self.assertLess(moduli[2], 130e6)
+
     def test_refusals(self) -> None:
         """One clear line each, and no file."""
         path = self.made_directory() / "own.prm"
@@ -489,7 +555,9 @@ class Files(SuggestTest):
             (["--weight", "-1"], (SAND,), "must be positive"),
             (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
-            ([], ("0: Friction angle = 33",), "needs Youngs modulus"),
+            ([], ("0: Friction angle = 33 + 0.1*d",), "needs Youngs modulus"),
+            ([], ("0: Youngs modulus = 1e7",), "needs Friction angle"),
+            ([], ("0: phi = 33, Dr = 60%",), "leave out either"),
             ([], ("0: su = 0 kPa",), "su = 0 Pa must be positive"),
             ([], ("0: su = -20 kPa",), "must be positive"),
             ([], ("0: Frction angel = 33",), "did you mean Friction angle"),

@@ -5,7 +5,7 @@ import math
 import unittest
 from pathlib import Path
 
-from program import SUCCESS, Entries, ProgramTest, history, summary
+from program import SUCCESS, Entries, ProgramTest, history, summary, user_scene
 
 INNER_RADIUS = 2.8  # m, of simulation/jack.prm
 STRENGTH = 5e3  # Pa
@@ -94,6 +94,35 @@ class Lift(ProgramTest):
             for cut_off in (0, 1e9)
         ]
         self.assertAlmostEqual(found[1] / found[0], 1, delta=0.02)
+
+
+class Surface(ProgramTest):
+    """The plug of a caisson rises: its clay enters cells from below."""
+
+    def test_cells_with_little_clay_are_stable(self) -> None:
+        """The stiff water in a thin layer of clay at the bottom of a cell moves the
+        nodes above it, which have hardly any mass."""
+        path = self.directory()
+        self.run_program(
+            SUCCESS,
+            user_scene("suction_clay"),
+            "--output-directory",
+            path,
+            entries={
+                "Rigid body/Wall thickness": 0.25,
+                "Grid/Refinement levels": 0,
+                "Grid/Moving zone below tip": 2,
+                "Material points/Per direction near": 2,
+                "Material points/Per direction far": 2,
+                "Water/Level": "undrained",
+                "Time/End penetration": 1.1,
+                "Output/Frame interval": "never",
+                "Output/Frame penetrations": "",
+            },
+        )
+        rows = history(path)
+        self.assertLess(abs(rows[-1]["energy_residual"]), 0.01)
+        self.assertGreater(min(row["pore_pressure_smallest_Pa"] for row in rows), -2e4)
 
 
 class Installation(ProgramTest):

@@ -129,6 +129,31 @@ namespace CaissonMPM
           stiffness[i] *= scale;
       }
 
+      /** Add to the stiffness bound of cells that are filled in part what the
+       * water in them has beyond its stiffness at the points: its pressure acts
+       * with the gradients of the whole cell (cell_pressure.h), also on nodes
+       * that the points hardly reach. */
+      template <typename Number>
+      [[gnu::always_inline]] inline void
+      add_stiffness_of_water(const StepContext       &step,
+                             const CellGroup<Number> &group,
+                             const CellMap<Number>   &map,
+                             LaneSums<Number, 16>    &internal)
+      {
+        Number stiffness[4];
+        find_full_stiffness(map,
+                            step.grid.axisymmetric,
+                            group.lanes([&](const unsigned int c) {
+                              // the water is the same in all materials
+                              return (acting_share(step, c) -
+                                      step.moments[c].full) *
+                                     step.materials[0].water_modulus;
+                            }),
+                            stiffness);
+        for (int i = 0; i < 4; ++i)
+          internal.sum[ForceSums<Number>::stiffness + i] += stiffness[i];
+      }
+
       /** The internal force of full cells, from the fitted stress. */
       template <typename Number>
       [[gnu::always_inline]] inline void
@@ -444,7 +469,11 @@ namespace CaissonMPM
             //    over Gauss points and points.
             integrate_stress(step, group, map, sums, internal_rows, internal);
             if (step.pore_pressure != nullptr)
-              add_cell_pressure(step, group, map, internal);
+              {
+                add_cell_pressure(step, group, map, internal);
+                if (step.integration.has_minimum_nodal_mass)
+                  add_stiffness_of_water(step, group, map, internal);
+              }
             contribution.add_forces(internal);
 
             // 4. Add to the nodes, cell by cell, because cells share nodes.

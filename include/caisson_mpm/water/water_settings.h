@@ -5,6 +5,7 @@
 #define caisson_mpm_water_water_settings_h
 
 #include <caisson_mpm/base/section.h>
+#include <caisson_mpm/water/design_settings.h>
 #include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/pressure_solver.h>
 #include <caisson_mpm/water/suction.h>
@@ -82,6 +83,7 @@ namespace CaissonMPM
     SeaSettings               sea;
     SuctionSettings           suction;
     FeasibilitySettings       feasibility;
+    DesignSettings            design; // of where feasibility counts
   };
 } // namespace CaissonMPM
 

@@ -3,6 +3,9 @@
 
 With --error it first finds the coarsest mesh whose error bar is small enough, and runs
 the scene on that one.
+With --band it runs FILE_low.prm and FILE_high.prm, too, at the same time, one core
+each, and the page of FILE.prm has all three; complete runs are not repeated. Of the
+options of caisson_mpm it takes --set, --restart and --overwrite.
 The exit status is the program's: 0 success, 1 bad input, 2 failure, 3 stopped on
 request. Options of caisson_mpm follow the file. A scene that is not a file here is
 one of the project, see `caisson scenes`.
@@ -19,6 +22,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from caisson import needed, ranks
+from caisson.commands import run_band
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
     RunError,
@@ -37,11 +41,13 @@ RENEWAL = 20.0  # s, in which the report of a run is renewed, if there is a new 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson run`."""
     parser.usage = (
-        "%(prog)s [--ranks N] [--error 5%% [--budget TIME]] FILE.prm"
+        "%(prog)s [--ranks N | --band] [--error 5%% [--budget TIME]] FILE.prm"
         " [option of caisson_mpm]..."
     )
     text = "MPI ranks, default: as many as pay on this machine"
     parser.add_argument("--ranks", type=int, metavar="N", help=text)
+    text = "run the estimates of low and high resistance, too"
+    parser.add_argument("--band", action="store_true", help=text)
     text = "refine the mesh until the error bar of the total force is that small"
     parser.add_argument("--error", metavar="5%", help=text)
     text = "with --error: time of all runs on one core, such as 30min (default: 2h)"
@@ -104,20 +110,23 @@ def options_for_error(
     return [w for k, v in entries.items() for w in ("--set", f"{k}={v}")], bar
 
 
-def draw(directory: Path, error_bar: Path | None) -> None:
+def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     """Draw the pictures, write the report and say whether it works; the results do not
-    need them. error_bar: of the run, None for that beside the scene."""
+    need them. error_bar: of the run, None for that beside the scene; in_full: say all
+    of it, and not only where the report is."""
     from caisson import error_bounds, plot, report
-    from caisson.report import verdict
+    from caisson.report import band, verdict
     from caisson.results import Results
 
     error_bounds.adopt(directory, error_bar)
     run = Results(directory)
     verdict.keep(run)
     for picture in plot.draw(directory):
-        print(f"plot: {picture}")
+        if in_full:
+            print(f"plot: {picture}")
     print(f"report: {report.write(directory)}")
-    for line in verdict.lines_of(run):
+    lines = [*verdict.lines_of(run), band.sentence_of(run)]
+    for line in filter(None, lines if in_full else []):
         print(line)
 
 
@@ -210,6 +219,10 @@ def main(options: argparse.Namespace) -> int:
     ]
     if options.budget and not options.error:
         raise RunError("--budget belongs to --error")
+    if options.band:
+        if options.ranks or options.error:
+            raise RunError("--band runs each scene on one core: without other options")
+        return run_band.main(arguments, draw, reporting)
     directory, stop_file = places_of(arguments)
     error_bar = None
     if options.error and directory:  # else the program says what is wrong

@@ -30,7 +30,7 @@ import numpy as np
 from caisson.design.clay import Layer, tip_layer
 from caisson.design.cone import Skirt
 
-REVERSE_BEARING = "plug fails (reverse bearing)"
+REVERSE_BEARING = "reverse bearing of the plug"
 LIFT = "clay plug lifted by water below"
 
 

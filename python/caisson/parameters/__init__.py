@@ -28,6 +28,12 @@ because the parameters make the runs:
     entry = "Soil/Layer 1/Friction angle"  # or several in entries = [...]
     base = 33                              # of one at a time, default: the median of
                                            # a distribution, or the value of the scene
+    [parameters.su]                        # times what stands there: an expression
+    times = {"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}
+    distribution = "normal"
+    mean = 1
+    standard_deviation = 0.2
+
     [parameters.dilatancy]                 # follows from others, by their names
     entry = "Soil/Layer 1/Dilatancy angle"
     formula = "max(0, phi - 30)"           # caisson.parameters.formula
@@ -38,16 +44,19 @@ because the parameters make the runs:
 
 A distribution is taken at its quantiles of 5 and 95 % where one parameter changes at a
 time. All runs are checked before the first one starts. Results, besides those of the
-runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png.
+runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png and, of
+a Latin hypercube, surface.csv: P5, P50 and P95 of the penetration by weight and of what
+is observed at the quarters of the planned penetration, and the probability of refusal,
+by a response surface (caisson.parameters.surface).
 A cone test is read before the first run, and kept with each of them.
 """
 import concurrent.futures
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.parameters import methods, pictures, tables
+from caisson.parameters import methods, pictures, surface, tables
 from caisson.parameters.outcome import Outcomes
-from caisson.parameters.sampling import runs_of
+from caisson.parameters.sampling import LATIN, runs_of
 from caisson.paths import short
 from caisson.runner import RunError
 from caisson.study import (
@@ -67,7 +76,10 @@ STUDY_KEYS = set(
     " cone".split()
 )
 RUN_KEYS = {"sample"}
-FILES = ("table.csv", "fan.csv", "fan.png", "tornado.png", "methods.csv", "methods.png")
+FILES = (
+    *("table.csv", "fan.csv", "fan.png", "tornado.png", "surface.csv"),
+    *("methods.csv", "methods.png"),
+)
 make_runs = runs_of
 
 
@@ -150,6 +162,10 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
                 pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
                 *by_methods(directory, outcomes),
             ]
+            if study.keys.get("sampling") == LATIN:
+                found = surface.of_study(outcomes)
+                place = directory / "surface.csv"
+                files += [tables.write_surface(place, found)] if found else []
         print("\n".join(tables.lines(outcomes, depth)))
         for file in filter(None, files):
             print(f"{study.id}: {short(file)}")

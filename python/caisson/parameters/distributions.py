@@ -124,6 +124,7 @@ class Distribution:
         of = numbers_of(name, given)
         check(name, of)
         self.law = law_of(name, of)
+        self.is_logarithmic = name.startswith("log")
         self.low = float(self.law.cdf(of.get("min", -math.inf)))
         self.high = float(self.law.cdf(of.get("max", math.inf)))
         require(

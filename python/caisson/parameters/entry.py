@@ -21,7 +21,7 @@ from caisson.study import StudyError
 Value = float | str | bool
 Sample = dict[str, Value]  # by the name of the parameter
 WAYS = ("values", "range", "distribution", "choices", "formula")
-WHERE = {"entry", "entries"}
+WHERE = {"entry", "entries", "times"}
 RANGE_KEYS = {"from", "to", "n", "logarithmic"}
 UNCERTAIN = (0.05, 0.95)  # shares of a distribution whose values are taken one by one
 
@@ -32,7 +32,8 @@ class Parameter:
 
     It has values (of a list, a range, or the names of choices), or a distribution, or
     a formula of other parameters. entries: all those that it sets to its value;
-    choices: what each of its values sets instead. base: its value in the run that
+    choices: what each of its values sets instead; times: entries that it sets to its
+    value times what stands there. base: its value in the run that
     others are compared with, None where that of the scene counts. label: its name in
     pictures, without the sections before that of an entry.
     """
@@ -42,6 +43,7 @@ class Parameter:
     values: tuple[Value, ...] = ()
     distribution: Distribution | None = None
     choices: Mapping[str, Entries] = field(default_factory=dict)
+    times: Mapping[str, str] = field(default_factory=dict)
     formula: Formula | None = None
     base: Value | None = None
     label: str = ""
@@ -50,7 +52,8 @@ class Parameter:
         """Return the entries that it sets to take this value."""
         if self.choices:
             return dict(self.choices.get(str(value), {}))
-        return dict.fromkeys(self.entries, value)
+        products = {e: product(value, text) for e, text in self.times.items()}
+        return dict.fromkeys(self.entries, value) | products
 
     def picked(self, shares: np.ndarray) -> list[Value]:
         """Return the values at shares [n] from 0 to 1 of its distribution; those of a
@@ -71,6 +74,14 @@ def rounded(value: float) -> float:
     """Return a value with the digits that matter, so that it is read easily and is
     the same on each machine."""
     return float(f"{value:.6g}")
+
+
+def product(factor: Value, text: str) -> Value:
+    """Return a factor times a number, or times an expression."""
+    try:
+        return rounded(float(factor) * float(text))
+    except ValueError:
+        return f"{text_of(factor)}*({text})"
 
 
 def text_of(value: Value) -> str:
@@ -126,9 +137,19 @@ def check_choices(given: object) -> dict[str, Entries]:
     return given
 
 
+def check_times(given: object) -> dict[str, str]:
+    """Return what entries are, times the value of the parameter."""
+    require(
+        isinstance(given, dict) and len(given) > 0,
+        f'times is {given!r}; give {{"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}}',
+    )
+    assert isinstance(given, dict)
+    return {str(entry): str(text) for entry, text in given.items()}
+
+
 def entries_of(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the entries that a parameter sets: those it says, or that of its name."""
-    require(not WHERE <= set(given), "give entry or entries, not both")
+    require(len(WHERE & set(given)) < 2, "give one of entry, entries and times")
     found = given.get("entries", given.get("entry", name if "/" in name else None))
     require(
         found is not None,
@@ -161,6 +182,8 @@ def read(name: str, given: Mapping[str, Any]) -> Parameter:
     if way == "choices":
         found["choices"] = check_choices(given[way])
         found["values"] = tuple(found["choices"])
+    elif "times" in given:
+        found["times"] = check_times(given["times"])
     else:
         found["entries"] = entries_of(name, given)
     if way == "values":
@@ -202,7 +225,7 @@ def check_entries(parameters: list[Parameter]) -> None:
     owner: dict[str, str] = {}
     for parameter in parameters:
         chosen = (entry for choice in parameter.choices.values() for entry in choice)
-        for entry in {*parameter.entries, *chosen}:
+        for entry in {*parameter.entries, *parameter.times, *chosen}:
             if entry in owner:
                 raise StudyError(
                     f"the parameters {owner[entry]!r} and {parameter.name!r} set the"

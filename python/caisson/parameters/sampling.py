@@ -139,6 +139,8 @@ def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
         return parameter.picked(np.array([0.5]))[0]
     if parameter.choices:
         return AS_IN_SCENE
+    if parameter.times:
+        return 1.0
     found = {entry: scene_value(entry) for entry in parameter.entries}
     if len(set(found.values())) > 1:
         text = ", ".join(f"{entry} = {value}" for entry, value in found.items())

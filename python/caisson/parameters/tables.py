@@ -1,17 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The tables of a study of parameters: table.csv, fan.csv, and what is printed."""
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from caisson import table
-from caisson.parameters import effects
+from caisson.parameters import effects, surface
 from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, title_of, unit_of
+from caisson.parameters.outcome import (
+    DEPTH,
+    Outcome,
+    Outcomes,
+    title_of,
+    unit_of,
+    words_of,
+)
 from caisson.parameters.sampling import LATIN, ONE
+from caisson.parameters.surface import Spread, Surfaces
 
 MOST_WARNINGS = 6  # that are printed
 RANKS = (
@@ -73,6 +81,40 @@ def write_fan(path: Path, outcomes: Outcomes) -> Path:
     return table.write_columns(path, columns)
 
 
+def of_surface(spreads: Sequence[Spread]) -> tuple[list[str], list[list[str]]]:
+    """Return heads and rows of what the surfaces say."""
+    rows = []
+    for spread in spreads:
+        unit, scale = unit_of(spread.name)
+        where = f" at {spread.depth:.4g} m" if math.isfinite(spread.depth) else ""
+        name = f"{words_of(spread.name)}{where}"
+        values = [cell(x * scale) for x in (*spread.quantiles, spread.error)]
+        rows.append([name, unit, *values, str(spread.runs), spread.model])
+    return ["result", "unit", *surface.NAMES, "error", "runs", "surface"], rows
+
+
+def lines_of_surface(found: Surfaces) -> Iterator[str]:
+    """Yield P5, P50 and P95, and the probability of refusal."""
+    yield table.markdown(*of_surface(found.spreads))
+    yield (
+        f"by {surface.SAMPLES} samples of a response surface; error: with each run left"
+        " out in turn"
+    )
+    if (refusal := found.refusal) is not None:
+        yield surface.in_words(refusal)
+
+
+def write_surface(path: Path, found: Surfaces) -> Path:
+    """Write surface.csv: what the surfaces say, and as its last row the probability of
+    refusal."""
+    heads, rows = of_surface(found.spreads)
+    if (refusal := found.refusal) is not None:
+        share = f"{refusal.probability:.3g}"
+        rows.append(["refusal", "", "", share, "", "", str(refusal.runs), "logistic"])
+    table.write_csv(path, heads, rows)
+    return path
+
+
 def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
     """Yield what is printed: runs or quantiles, effects, and what has failed."""
     unit, scale = unit_of(outcomes.column)
@@ -85,9 +127,13 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
         ]
         yield table.markdown(["run", *heads], rows)
     if outcomes.sampling == LATIN and outcomes.complete:
-        names, values = effects.spread(outcomes.matrix(outcomes.depths))
-        rows = [[n, *(cell(x * scale) for x in v)] for n, v in zip(names, values)]
-        yield table.markdown(["quantile", *heads], rows)
+        if found_by := surface.of_study(outcomes):
+            yield from lines_of_surface(found_by)
+        else:
+            names, values = effects.spread(outcomes.matrix(outcomes.depths))
+            rows = [[n, *(cell(x * scale) for x in v)] for n, v in zip(names, values)]
+            yield table.markdown(["quantile", *heads], rows)
+            yield surface.why_none(outcomes)
     base, found = effects.effects_of(outcomes, depth)
     if found and outcomes.sampling == LATIN:
         rows = [[e.parameter.label, f"{e.high:+.2f}"] for e in found]

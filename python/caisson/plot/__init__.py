@@ -17,9 +17,10 @@ def draw(directory: Path) -> list[Path]:
     """Write all pictures of a run; return their paths.
 
     forces.png, with suction also suction.png, for a caisson that goes down also
-    design.csv and walls.png, and where there are frames stress.png, displacement.png
-    and, where the soil changes its volume, void_ratio.png, and with excess pore
-    pressure pore_pressure.png. Raises ResultsError.
+    design.csv, walls.png and, with suction, wall_pressure.csv, and where there are
+    frames stress.png, displacement.png and, where the soil changes its volume,
+    void_ratio.png, and with excess pore pressure pore_pressure.png. Raises
+    ResultsError.
     """
     from matplotlib import rc_context
 
@@ -32,11 +33,14 @@ def draw(directory: Path) -> list[Path]:
 
 def _drawn(directory: Path, run: Results) -> list[Path]:
     """Write the pictures of a run; return their paths."""
-    from caisson.plot import design, fields, forces, pore_pressure, suction, walls
+    from caisson.plot import design, fields, forces, limits, pore_pressure, suction
+    from caisson.plot import walls
 
     pictures = [forces.draw(directory / "forces.png", run)]
     pictures += suction.draw(directory, run)
     pictures.append(design.write(directory / "design.csv", run))
+    load = directory / "wall_pressure.csv"
+    pictures.append(limits.write_pressures(load, run))
     pictures.append(walls.draw(directory / "walls.png", run))
     if run.has_frames:
         frames = fields.frames_of(run)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from caisson import curves
 from caisson.curves import error_band, path_of, running_mean
-from caisson.plot import theory
+from caisson.plot import band, theory
 from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
@@ -175,6 +175,8 @@ def draw_panel(
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth, run.feasible_to)
+    for end in [] if friction_only else band.draw(axes, run, "total_force_N", "total"):
+        axes.set_xlim(right=max(1.05 * end.max(), axes.get_xlim()[1]))
     label_axes(axes, "wall friction" if friction_only else "force", run.body)
 
 

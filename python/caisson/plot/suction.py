@@ -7,10 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.evaluation import pump_limit, rest_of_run
+from caisson.evaluation import rest_of_run
+from caisson.plot import limits
 from caisson.plot import suction_methods as methods
+from caisson.plot import band as between
 from caisson.plot import theory
-from caisson.curves import error_band
+from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
@@ -22,9 +24,9 @@ BLUE, GREEN, RED = (
 COLOR_OF = {methods.HOULSBY_BYRNE: BLUE}  # of a required suction; others are green
 # column of design.csv: label and line of a critical suction; a required one is a band
 CRITICAL_COLOR = "#b35806"
-PLUG_COLOR = "#542788"
+ALLOWABLE, WIDE_COLOR = "allowable, the least of the limits", "#f4b6b6"
 CRITICAL = {
-    methods.PIPING: ("Houlsby & Byrne (2005)", "-"),
+    methods.PIPING: ("Houlsby & Byrne (2005)", "-"),  # drawn as a limit
     methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", "--"),
     methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", (0, (6, 6))),
     methods.CRITICAL_FELD: ("Feld (2001)", ":"),
@@ -66,14 +68,12 @@ def draw_required(axes: Axes, answers: methods.Answers) -> None:
 
 def draw_critical(axes: Axes, answers: methods.Answers) -> None:
     """Draw the critical suctions as thin lines of one color, in kPa."""
-    for (name, limit), dashes in zip(answers.plug.items(), ("-", "--")):
-        color, x = PLUG_COLOR, limit / 1e3
-        axes.plot(x, answers.depth, dashes, color=color, linewidth=0.9, label=name)
     for column, (name, line) in CRITICAL.items():
-        if not has_line(answers.suctions.get(column, np.empty(0))):
+        values = answers.suctions.get(column, np.empty(0))
+        if column == methods.PIPING or not has_line(values):
             continue
         axes.plot(
-            answers.suctions[column] / 1e3,
+            values / 1e3,
             answers.depth,
             color=CRITICAL_COLOR,
             linewidth=0.9,
@@ -105,32 +105,51 @@ def draw_rest(axes: Axes, history: Table, answers: methods.Answers) -> None:
         known.add(label)
 
 
-def draw_limits(axes: Axes, run: Results) -> None:
-    """Draw the suction at which water boils beneath the lid, which grows as the lid
-    comes down, and that of the pump; name those that are out of the range."""
-    history, beyond = run.history, list[str]()
-    depth = history["penetration_m"]
-    limits = {}
-    if "cavitation_suction_Pa" in history:
-        limits["water boils"] = RED, history["cavitation_suction_Pa"] / 1e3
-    if (pump := pump_limit(run)) is not None:
-        limits["largest of the pump"] = "#762a83", np.full(len(depth), pump)
-    for name, (color, limit) in limits.items():
-        if limit.min() < axes.get_xlim()[1]:
-            axes.plot(limit, depth, color=color, linewidth=1.2, label=name)
+def allowable_of(run: Results, found: Table, depth: np.ndarray) -> np.ndarray:
+    """Return the least of limits [n] where suction is needed (kPa), nan elsewhere."""
+    needed = np.interp(depth, *columns_of(run.history, "required_suction_Pa")) > 0
+    least = limits.least_of(found, len(depth))
+    return np.where(needed & np.isfinite(least), least, np.nan)
+
+
+def columns_of(history: Table, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return depth and a column on the way down."""
+    rows = way_down(history["penetration_m"])
+    return history["penetration_m"][rows], history[name][rows]
+
+
+def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> list[str]:
+    """Draw the limits of the suction [n] (kPa) at depths [n] (m), each by its factor,
+    over their least; return those that are out of the range, in words."""
+    factors, beyond = limits.factors_of(run), list[str]()
+    for name, limit in found.items():
+        label, known = limits.with_factor(name, factors[name]), limit[limit < np.inf]
+        if name == limits.LID:
+            for h in depth[limit <= 0][:1]:
+                color = limits.LIMITS[name].color
+                axes.axhline(h, color=color, linewidth=1.2, label=label)
+        elif np.nanmin(known) < axes.get_xlim()[1]:
+            color = limits.LIMITS[name].color
+            axes.plot(limit, depth, color=color, linewidth=1.2, label=label)
         else:
-            ends = dict.fromkeys(f"{v:.0f}" for v in (limit.min(), limit.max()))
-            beyond.append(f"{name}: {' to '.join(ends)} kPa")
-    if beyond:
-        text = "\n".join(beyond)
-        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
+            ends = (np.nanmin(known), np.nanmax(known))
+            texts = dict.fromkeys(f"{v:.0f}" for v in ends)
+            beyond.append(f"{label} at {' to '.join(texts)} kPa")
+    return beyond
 
 
-def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
-    """Draw the suction of the run and of the methods."""
+def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
+    """Draw the suction of the run, of the methods, and its limits; return which limits
+    are out of the range."""
     history = run.history
     depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
+    at = np.linspace(max(depth[0], 0.0), depth.max(), 60)
+    found = limits.limits_of(run, at)
+    allowable = allowable_of(run, found, at)
+    style = {"color": WIDE_COLOR, "linewidth": 6, "solid_capstyle": "butt"}
+    if has_line(allowable):
+        axes.plot(allowable, at, label=ALLOWABLE, **style)
     axes.plot(applied, depth, color="black", linewidth=1.8, label="applied, computed")
     axes.plot(
         required,
@@ -143,16 +162,18 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> None:
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
     lines = [applied[depth <= (run.feasible_to or np.inf)]]
+    lines += between.draw(axes, run, "required_suction_Pa", "required")
     draw_required(axes, answers)
     draw_critical(axes, answers)
-    known = [*answers.suctions.values(), *answers.plug.values()]
+    known = [*answers.suctions.values()]
     known += [s for method in answers.required for s in method.cases.values()]
     lines += [s / 1e3 for s in known if has_line(s)]
-    most = max(np.nanmax(line, initial=1e-3) for line in lines)
+    most = max(np.nanmax(line, initial=1e-3) for line in [*lines, allowable])
     axes.set_xlim(-0.02 * most, 1.08 * most)
-    draw_limits(axes, run)
+    beyond = draw_limits(axes, run, at, found)
     draw_rest(axes, history, answers)
     axes.set_xlabel("suction (kPa)")
+    return f"Beyond the picture: {'; '.join(beyond)}." if beyond else ""
 
 
 def draw_gradients(axes: Axes, run: Results) -> None:
@@ -250,7 +271,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure = Figure(figsize=(14 if seeps else 10, 6.5))
     panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
-    draw_suction(panels[0], run, answers)
+    beyond = draw_suction(panels[0], run, answers)
     if seeps:
         draw_gradients(panels[1], run)
     draw_heave(panels[-1], run)
@@ -262,7 +283,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
         axes.legend(fontsize=8, framealpha=0.9, loc=place)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)
-    text = "\n".join(filter(None, [caption(answers, site), about]))
+    text = "\n".join(filter(None, [beyond, caption(answers, site), about]))
     with_note(figure, text)
     picture = directory / "suction.png"
     in_units(figure, run.shown)

@@ -85,7 +85,7 @@ class Answers:
         low, high = self.in_clay.cases
         return (
             f"{self.in_clay.name}: (jacking force - weight) / area inside,"
-            f" {low} dashed, {high} dotted; the limits of a plug have no safety factor"
+            f" {low} dashed, {high} dotted"
         )
 
     @property

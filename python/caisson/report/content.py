@@ -10,6 +10,7 @@ from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
 from caisson.plot import design, suction_methods, theory
+from caisson.plot.band import LABEL, range_of
 from caisson.plot.forces import (
     COLORS,
     WATER_COLOR,
@@ -19,16 +20,11 @@ from caisson.plot.forces import (
     penetration,
     smooth,
 )
-from caisson.plot.suction import COLOR_OF, CRITICAL, GREEN, PLUG_COLOR, RED
+from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
+from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
 from caisson.shown import Units, units_for
-from caisson.report.installation import (
-    BOILING,
-    COMPUTED,
-    PUMP,
-    Installation,
-    texts_of,
-)
+from caisson.report.installation import NOTHING, Installation, texts_of
 from caisson.report.pull import PULL, is_pull, pull_parts
 
 GRAY = "#aaaaaa"  # what is deeper than suction reaches
@@ -115,6 +111,16 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
     return found
 
 
+def range_curve(run: Results, column: str, name: str) -> list[Curve]:
+    """Return the area between low and high resistance; nothing without a band."""
+    found = range_of(run, column)
+    if found is None:
+        return []
+    depth, low, high = found
+    area = band(f"{name}, {LABEL}", "black", low, high, depth)
+    return [area | {"shade": True}]
+
+
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     """Return the forces (kN) over depth (m) with their error bars and the range of
     Houlsby & Byrne."""
@@ -127,6 +133,7 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
+    found += range_curve(run, column_of("total"), "total")
     for name, color in COLORS.items():
         if column_of(name) in history:
             force = smooth(depth, history[column_of(name)])
@@ -138,7 +145,8 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
 
 
 def method_suctions(run: Results) -> list[Curve]:
-    """Return the required and the critical suctions of the methods (kPa) over depth."""
+    """Return the required and the other critical suctions of the methods (kPa) over
+    depth."""
     site, depth = theory.site_of(run), design.depths_of(run.history)
     answers = suction_methods.answers_of(site, depth)
     found = []
@@ -149,58 +157,71 @@ def method_suctions(run: Results) -> list[Curve]:
         for bound in method.bounds.values():
             label = f"required, {theory.LOWER_BOUND}"
             found.append(line(label, color, bound / 1e3, depth))
-    for name, limit in answers.plug.items():
-        found.append(line(name, PLUG_COLOR, limit / 1e3, depth))
     for color, (column, (name, _)) in zip(CRITICAL_COLORS, CRITICAL.items()):
-        if column in answers.suctions:
-            critical = answers.suctions[column] / 1e3
-            found.append(line(f"critical, {name}", color, critical, depth))
+        if column in answers.suctions and column != suction_methods.PIPING:
+            critical, label = answers.suctions[column] / 1e3, f"critical, {name}"
+            found.append(line(label, color, critical, depth, hidden=True))
     return found
 
 
-def limit_curves(found: Installation) -> list[Curve]:
-    """Return the other limits of the suction, and where the caisson rests."""
-    curves_of_limits = [
-        line(label, color, found.limits[name], found.depth, far=name == BOILING)
-        for name, label, color in (
-            (COMPUTED, "critical, by the exit gradient computed", "#d6604d"),
-            (BOILING, "water boils below the lid", RED),
-            (PUMP, "largest suction of the pump", "#762a83"),
-        )
-        if name in found.limits
-    ]
+def limit_curves(found: Installation, bottom: float) -> list[Curve]:
+    """Return the limits of the suction, the least of them where suction is needed, and
+    where the caisson rests; the depth of the lid where it is above a bottom (m)."""
+    most, depth = float(found.required.max()), found.depth
+
+    def across(label: str, color: str, place: float) -> Curve:
+        ends = np.array([0.0, most])
+        return line(label, color, ends, np.full(2, place), far=True)
+
+    needed = found.required > NOTHING
+    needed[:-1] |= needed[1:]
+    allowable = np.where(needed, found.allowable, np.nan)
+    shown = [line(ALLOWABLE, WIDE_COLOR, allowable, depth, full=True)]
+    for name, values in found.limits.items():
+        if name != LID:
+            label, color = found.named(name), LIMITS[name].color
+            shown.append(line(label, color, values, depth, far=name == BOILING))
+    if found.lid is not None and found.lid <= bottom:
+        label = f"{found.named(LID)} at {found.shown.depth(found.lid)}"
+        shown.append(across(label, LIMITS[LID].color, found.lid))
     if found.rest is not None:
-        ends = np.array([0.0, found.required.max()])
         label = f"rests by weight at {found.shown.depth(found.rest)}"
-        curves_of_limits.append(line(label, "#888888", ends, np.full(2, found.rest)))
-    return curves_of_limits
+        shown.append(across(label, "#888888", found.rest))
+    return shown
 
 
 def axis_end(shown: list[Curve]) -> float:
     """Return where the axis of the suction ends (kPa), as in limits() of page.js."""
-    most = max(x for c in shown if c.get("thick") for x in c["x"] if x is not None)
-    ends = [
-        x
-        for curve in shown
-        if not curve.get("hidden") and not curve.get("far")
-        for x in [*curve["x"], *curve.get("to", [])]
-        if x is not None
-    ]
-    return 1.03 * (min(max(ends), 1.5 * most) if most > 0 else max(ends))
+
+    def most(curves_: list[Curve]) -> float:
+        ends = [[*curve["x"], *curve.get("to", [])] for curve in curves_]
+        return max((x for end in ends for x in end if x is not None), default=0.0)
+
+    seen = [c for c in shown if not c.get("hidden") and not c.get("far")]
+    own = most([c for c in seen if c.get("thick") or c.get("shade")])
+    full = most([c for c in seen if c.get("full")])
+    wide = (2.0 if full else 1.5) * own
+    return 1.03 * (max(min(most(seen), wide), full) if own > 0 else most(seen))
 
 
-def beyond_the_chart(found: Installation, shown: list[Curve]) -> str:
-    """Return which limits are beyond the axis of the curves, in a sentence."""
+def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
+    """Return which limits are beyond the axis of the curves, or are none, and the depth
+    of the lid where it is below a bottom (m), in sentences."""
     words, end = [], axis_end(shown)
-    for name, text in ((BOILING, "water boils below the lid at"), (PUMP, "the pump")):
-        limit = found.limits.get(name, np.full(1, np.nan))
-        if limit.min() > end:
-            factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
-            limits = (factor * limit.min(), factor * limit.max())
+    factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
+    for name, values in found.limits.items():
+        known = values[np.isfinite(values)]
+        if name != LID and len(known) and known.min() > end:
+            limits = (factor * known.min(), factor * known.max())
             ends = dict.fromkeys(f"{v:.0f}" for v in limits)
-            can = "" if name == BOILING else " can draw"
-            words.append(f"{text}{can} {' to '.join(ends)} {unit}")
-    return f"Beyond the right end of the chart: {', '.join(words)}." if words else ""
+            words.append(f"{found.named(name)} at {' to '.join(ends)} {unit}")
+    if found.lid is not None and found.lid > bottom:
+        words.append(f"{found.named(LID)} at about {found.shown.place(found.lid, 1)}")
+    beyond = f"Beyond the chart: {'; '.join(words)}. " if words else ""
+    absent = absent_of(found.limits) if found.limits else []
+    return (
+        beyond + f"No limit of {'; of '.join(absent)}." if absent else beyond
+    ).strip()
 
 
 def suction_curves(
@@ -208,7 +229,8 @@ def suction_curves(
 ) -> list[Curve]:
     """Return the required suction (kPa) over depth (m), beside methods and limits."""
     history, depth = run.history, run.history["penetration_m"]
-    shown = [*method_suctions(run), *limit_curves(found)]
+    shown = [*limit_curves(found, float(depth.max())), *method_suctions(run)]
+    shown += range_curve(run, "required_suction_Pa", "required")
     bar = error_band(run.error_bounds, "required_suction", "Pa")
     if bar is not None:
         at, *ends = down_to(end, *bar)
@@ -278,12 +300,13 @@ def figures_of(
     figures = []
     if found is not None and found.has_suction:
         suctions = with_points(suction_curves(run, found, end))
+        bottom = float(run.history["penetration_m"].max())
         figures.append(
             {
                 "id": "suction",
                 "title": "Installation chart: required suction and its limits",
                 "axis": "suction (kPa)",
-                "note": beyond_the_chart(found, suctions),
+                "note": beyond_the_chart(found, suctions, bottom),
                 "curves": suctions,
             }
         )

@@ -2,12 +2,9 @@
 """The installation in numbers: what it takes at each half meter and at the end, what
 is allowed, and the pump.
 
-The allowable suction is the least of the suction at which the exit gradient that was
-computed becomes critical, of that at which Houlsby & Byrne (2005) expect piping or a
-plug of clay gives way (design/plug_stability), of the boiling of water below the lid,
-and of Water/Largest suction. No safety factor is
-in it. The pump moves the water that the lid displaces at a stated rate of penetration
-and that which seeps through the plug; a run is usually far faster than a caisson.
+The allowable suction is the least of the limits of plot/limits, each by its factor.
+The pump moves the water that the lid displaces at a stated rate of penetration and that
+which seeps through the plug; a run is usually far faster than a caisson.
 """
 import re
 from dataclasses import dataclass, field
@@ -20,11 +17,10 @@ from caisson.evaluation import (
     DEPTH,
     GRADIENT,
     at_depths,
-    pump_limit,
     rest_of_run,
 )
 from caisson.paths import INSTALLED
-from caisson.plot import design, suction_methods, theory
+from caisson.plot import design, limits
 from caisson.plot.forces import penetration
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
@@ -32,11 +28,12 @@ from caisson.shown import USUAL, Units
 from caisson.report.scene import plug_area
 
 HOUR = 3600.0
-LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
-COMPUTED = "exit gradient computed"
-PIPING, BOILING, PUMP = "piping, Houlsby & Byrne", "water boils", "pump"
 NOTHING = 5e-4  # of a unit of the tables
+NEARLY = 0.01  # of the largest flow
 HELD = 0.7  # m, below the error bar, over which its last width still stands
+
+
+ORDER = list(limits.LIMITS)  # of the rows
 
 
 class Rate(NamedTuple):
@@ -77,7 +74,9 @@ class Installation:
     required: np.ndarray = field(default_factory=lambda: np.empty(0))
     required_bounds: Bounds | None = None
     excess: float | None = None  # kN, of the weight at the end, without any suction
-    limits: dict[str, np.ndarray] = field(default_factory=dict)
+    limits: dict[str, np.ndarray] = field(default_factory=dict)  # by their factors
+    factors: dict[str, float] = field(default_factory=dict)
+    lid: float | None = None  # m, the depth at which the plug would meet it
     gradient: np.ndarray = field(default_factory=lambda: np.empty(0))  # over critical
     heave: np.ndarray = field(default_factory=lambda: np.empty(0))  # m
     room: np.ndarray = field(default_factory=lambda: np.empty(0))  # m, below the lid
@@ -100,15 +99,15 @@ class Installation:
     @property
     def allowable(self) -> np.ndarray:
         """The least limit (kPa), [n]; infinite without any."""
-        if not self.limits:
-            return np.full(len(self.depth), np.inf)
-        found = np.array(list(self.limits.values()))
-        return np.where(np.isnan(found), np.inf, found).min(axis=0)
+        return limits.least_of(self.limits, len(self.depth))
 
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""
-        known = {k: v[i] for k, v in self.limits.items() if np.isfinite(v[i])}
-        return min(known, key=lambda name: known[name]) if known else ""
+        return limits.governing(self.limits, i)
+
+    def named(self, name: str) -> str:
+        """Return the name of a limit with its factor, if that is not 1."""
+        return limits.with_factor(name, self.factors.get(name, 1.0)) if name else ""
 
 
 def needs_suction(run: Results) -> bool:
@@ -140,40 +139,6 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
     return Bounds(found[0], found[1], float(depth[last]))
 
 
-def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
-    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
-    at depths [n], nan before there is suction, and in clay, where nothing flows. The
-    flow is linear in the suction."""
-    history = run.history
-    if "critical_gradient" not in history:
-        return np.full(len(at), np.nan)
-    rows = curves.way_down(history["penetration_m"])[1:]
-    depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
-    share = curves.gradient_share(history)[rows]
-    pulled = (suction > 0) & (share > LEAST_SHARE)
-    if not pulled.any():
-        return np.full(len(at), np.nan)
-    found = suction[pulled] / share[pulled] / 1e3
-    means = curves.smoothed_at(depth[pulled], found, at)
-    return np.where(at >= depth[pulled][0], means, np.nan)
-
-
-def limits_of(run: Results, at: np.ndarray, boiling: np.ndarray) -> dict[str, Any]:
-    """Return the limits of the suction (kPa) at depths [n]."""
-    limits = {}
-    if "critical_gradient" in run.history:
-        limits[COMPUTED] = critical_by_gradient(run, at)
-    answers = suction_methods.answers_of(theory.site_of(run), at)
-    if answers.suctions:
-        limits[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
-    limits |= {name: values / 1e3 for name, values in answers.plug.items()}
-    limits[BOILING] = boiling
-    pump = pump_limit(run)
-    if pump is not None:
-        limits[PUMP] = np.full(len(at), pump)
-    return limits
-
-
 def installation_of(
     run: Results, rate: Rate, at: np.ndarray | None = None
 ) -> Installation | None:
@@ -199,7 +164,7 @@ def installation_of(
 
 def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -> None:
     """Add the columns of a run with suction."""
-    scene, at = run.scene, found.depth
+    scene, at, factors = run.scene, found.depth, limits.factors_of(run)
     found.required = np.maximum(numbers[design.SUCTION], 0) / 1e3
     if bars := bounds_of(numbers, "required_suction", "Pa"):
         found.required_bounds = bars.scaled(1e-3, 0.0)
@@ -209,9 +174,10 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
     found.heave = numbers["plug_heave_m"]
     if length := scene.get("skirt_length_m"):
         found.room = float(length) - at - found.heave
-    boils = numbers.get("cavitation_suction_Pa", np.full(len(at), np.nan)) / 1e3
+        factored = float(length) - at - factors[limits.LID] * found.heave
+        found.lid = limits.lid_depth(at, factored)
     if found.has_suction:
-        found.limits = limits_of(run, at, boils)
+        found.limits, found.factors = limits.limits_of(run, at), factors
     found.rest = rest_of_run(run.history)
     if scene.get("diameter_m"):
         if "seepage_flow_m3_s" in numbers:
@@ -360,34 +326,60 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
     return cards + pump_cards(run, found, rate)
 
 
+def cells_of(
+    found: Installation, values: np.ndarray, at: list[int | None]
+) -> list[str]:
+    """Return values [n] (kPa) in rows at; a dash where there is none."""
+    factor = found.shown.factor("kPa")
+    known = [None if i is None else float(values[i]) for i in at]
+    return [
+        "-" if v is None or not np.isfinite(v) else text_of(factor * v) for v in known
+    ]
+
+
 def quarters_of(
     run: Results, found: Installation, end: float | None, planned: float | None
 ) -> dict[str, Any]:
-    """Return the table of the suction at quarters of the planned penetration (m); end:
-    where suction ends (m), None where it does not."""
+    """Return the table of required suction and all limits at quarters of the planned
+    penetration (m); end: where suction ends (m), None where it does not."""
     if not found.has_suction or not planned:
         return {}
     shown, reached = found.shown, float(found.depth[-1])
-    wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
-    at = wanted[(wanted <= reached + 1e-3 * planned) & (wanted > run.history[DEPTH][0])]
+    quarters = wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
+    deep = wanted <= reached + 1e-3 * planned
+    at = wanted[deep & (wanted > run.history[DEPTH][0])]
+    if end is not None:
+        at, wanted = np.union1d(at, end), np.union1d(wanted, end)
     known = installation_of(run, Rate(), at) if len(at) else None
-    absent = "not feasible" if end is not None else "not reached"
-    rows = []
-    for share, depth in zip((25, 50, 75, 100), wanted):
-        place = f"{share} %: {shown.place(depth)}"
-        if known is None or depth not in at:
-            rows.append(
-                [place, absent if depth > reached else "before the start", "", ""]
-            )
-            continue
-        i = int(np.flatnonzero(at == depth)[0])
-        needs = in_range(known, known.required, known.required_bounds, "kPa")[i]
-        if known.required[i] <= NOTHING:
-            needs = "0 (weight suffices)"
-        limit = text_of(shown.factor("kPa") * float(known.allowable[i]))
-        rows.append([place, needs, limit, known.governing(i)])
-    heads = ["penetration", "required suction (kPa)", "allowable (kPa)", "governed by"]
-    return {"heads": [shown.named(head) for head in heads], "rows": rows}
+    places = [list(at).index(x) if x in at else None for x in wanted]
+    if known is None:
+        return {}
+    needs = in_range(known, known.required, known.required_bounds, "kPa")
+    none = "not feasible" if end is not None else "not reached"
+    rows = [[shown.named("required suction (kPa)")]]
+    for i, depth in zip(places, wanted):
+        if i is None:
+            cell = none if depth > reached else "before the start"
+        else:
+            cell = needs[i] if known.required[i] > NOTHING else "0 (weight suffices)"
+        rows[0].append(cell)
+    for name, values in sorted(known.limits.items(), key=lambda x: ORDER.index(x[0])):
+        label = known.named(name)
+        if name == limits.LID and found.lid is not None:
+            label += f": at about {shown.place(found.lid, 1)}"
+        rows.append([label, *cells_of(known, values, places)])
+    rows += [[words] + ["-"] * len(wanted) for words in limits.absent_of(known.limits)]
+    least = [
+        "" if i is None or known.required[i] <= NOTHING else known.governing(i)
+        for i in places
+    ]
+    rows.append(["governed by", *least])
+    shares = {
+        float(x): f"{100 * x / planned:.0f} %: {shown.place(x)}" for x in quarters
+    }
+    heads = [shares.get(float(x), f"feasible: {shown.place(x)}") for x in wanted]
+    head = shown.named("limit of the suction (kPa)")
+    return {"heads": [head, *heads], "rows": rows, "depths": wanted}
 
 
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
@@ -397,7 +389,9 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
         if found.has_suction
         else np.full(len(found.flow), True)
     )
-    most = int(np.argmax(np.where(pumped, found.flow, -np.inf)))
+    flow = np.where(pumped, found.flow, -np.inf)
+    # of flows that are nearly the largest one, that against the most suction
+    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
     words = (
         f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
     )
@@ -415,16 +409,12 @@ def room_card(run: Results, found: Installation) -> tuple[str, ...]:
     depth, heave, room = found.depth, found.heave, float(found.room[-1])
     shown = found.shown
     remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
-    last = depth >= depth[-1] - 1.0
-    if last.sum() > 1 and room > 0:
-        rise = (heave[-1] - heave[last][0]) / (depth[-1] - depth[last][0])
-        meets = depth[-1] + room / max(1 + rise, 0.1)
-        length = float(run.scene["skirt_length_m"])
-        if length / 2 < depth[-1] and meets < length - 5e-3:
-            remark += (
-                f"; it would meet the lid at about {shown.depth(meets).split()[0]} of"
-                f" {shown.length(length)}"
-            )
+    length = float(run.scene["skirt_length_m"])
+    if found.lid and room > 0 and length / 2 < depth[-1] and found.lid < length - 5e-3:
+        remark += (
+            f"; it would meet the lid at about {shown.depth(found.lid).split()[0]} of"
+            f" {shown.length(length)}"
+        )
     return "Room below the lid", shown.depth(room), remark
 
 

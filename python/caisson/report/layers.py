@@ -53,6 +53,7 @@ COLUMNS = {  # of the table with a row for each layer
     "K0": ("K0", ""),
     "Young's modulus": ("Youngs modulus", "Pa"),
     "adhesion of the walls": ("Adhesion of the walls", "Pa"),
+    "friction angle of the walls": ("Friction angle of the walls", "degrees"),
     "permeability": ("Permeability", "m/s"),
 }
 LINEAR = 2e-3  # of a number: how far a straight line may be from it

@@ -18,7 +18,7 @@
         label: curve.label,
         color: shown(curve.color),
         data: points.filter((p) => p[0] !== null),
-        lines: { show: true, lineWidth: curve.thick ? 2.2 : 1.2 },
+        lines: { show: true, lineWidth: curve.full ? 7 : curve.thick ? 2.2 : 1.2 },
         shadowSize: 0,
       };
     const range = curve.y
@@ -31,6 +31,7 @@
       label: curve.label,
       color: shown(curve.color),
       range: range,
+      shade: curve.shade,
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -53,7 +54,17 @@
           return [at.left + offset.left, at.top + offset.top];
         })
       );
-      context.strokeStyle = one.color;
+      context.strokeStyle = context.fillStyle = one.color;
+      if (one.shade) {
+        // of the same run: an area, behind which its curve is seen
+        context.globalAlpha = 0.16;
+        context.beginPath();
+        for (const row of ends) context.lineTo(...row[0]);
+        for (const row of [...ends].reverse()) context.lineTo(...row[1]);
+        context.fill();
+        context.globalAlpha = 1;
+        return;
+      }
       context.lineWidth = 0.9;
       for (const side of [0, 1]) {
         context.beginPath();
@@ -79,10 +90,10 @@
     context.restore();
   }
 
-  // The methods widen the axis by at most half of what the run has; content.py has
-  // the same end.
+  // The methods widen the axis by at most half of what the run has, limits by all
+  // of it, the allowable suction as far as it reaches; content.py has the same end.
   function limits(curves, upward) {
-    let low = 0, high = 0, top = upward ? Infinity : 0, bottom = 0, own = 0;
+    let low = 0, high = 0, top = upward ? Infinity : 0, bottom = 0, own = 0, full = 0;
     for (const curve of curves.filter((curve) => curve.far))
       for (const y of curve.y) bottom = Math.max(bottom, y);
     for (const curve of curves.filter((curve) => !curve.far))
@@ -91,12 +102,13 @@
           if (x === null) return;
           low = Math.min(low, x);
           high = Math.max(high, x);
-          if (curve.thick) own = Math.max(own, x);
+          if (curve.thick || curve.shade) own = Math.max(own, x);
+          if (curve.full) full = Math.max(full, x);
           top = Math.min(top, curve.y[i]);
           bottom = Math.max(bottom, curve.y[i]);
         });
     // the largest pull is in the middle
-    if (own > 0) high = upward ? 2 * own : Math.min(high, 1.5 * own);
+    if (own > 0) high = upward ? 2 * own : Math.max(Math.min(high, (full ? 2 : 1.5) * own), full);
     const wide = (high - low || 1) * 0.03, deep = (bottom - top || 1) * 0.02;
     top = Math.min(top, bottom);
     return { low: low - wide, high: high + wide, top: top, bottom: bottom + deep };

@@ -2,6 +2,7 @@
 """The page of a report: contents, pictures and scripts in one file."""
 import base64
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +10,13 @@ import numpy as np
 
 from caisson.template import template
 from caisson import plot
+from caisson.plot import limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, Table
-from caisson.report import content, installation, layers, methods, pull, scene
-from caisson.report import sketch, verdict
+from caisson.report import band, content, installation, layers, methods, pull
+from caisson.report import remedies, scene, sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
@@ -29,6 +31,7 @@ PICTURES = {
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
 }
+AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 CHARTS = ("walls",)  # pictures of lines, not of fields
 LAST_ROWS = "The run failed: do not use the last rows."
 
@@ -159,14 +162,19 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
     ] + ([("Use", use)] if (use := layers.use_of(run)) else [])
 
 
-def warnings_of(summary: dict[str, Any]) -> dict[str, list[str]]:
-    """Return the warnings by their rank; older files have none, so that all count."""
+def warnings_of(
+    summary: dict[str, Any], end: float | None = None
+) -> dict[str, list[str]]:
+    """Return the warnings by their rank, without those about what is deeper than the
+    end of suction (m); older files have no ranks, so that all count."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     ranked = (summary.get("results") or {}).get("warnings")
     if ranked is None:
         return {**found, "result": list(summary.get("warnings", []))}
     for warning in ranked:
-        found[warning["rank"]].append(warning["text"])
+        place = AT_PENETRATION.search(warning["text"])
+        if end is None or place is None or float(place[1]) <= end:
+            found[warning["rank"]].append(warning["text"])
     return found
 
 
@@ -232,12 +240,16 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = pull.cards_of(run) if is_pull else cards + methods.card_of(beside)
+    cards = (
+        pull.cards_of(run)
+        if is_pull
+        else band.cards_of(run, cards) + methods.card_of(beside)
+    )
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
-        verdict=said,
+        verdict=said if is_pull else band.verdict_with(run),
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
@@ -253,7 +265,7 @@ def html(run: Results, rate: Rate) -> str:
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings_of(summary),
+        warnings=warnings_of(summary, said.end),
         entries=scene.entries_of(run) if summary else {},
         defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),
@@ -270,12 +282,15 @@ def of_installation(
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     if found is None:
-        return {"tables": [], "quarters": {}, "bar": ""}
+        names = ("tables", "quarters", "bar", "factors", "remedies")
+        return dict.fromkeys(names, "")
     planned = scene.end_of(run) or float(found.depth[-1])
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
-        "quarters": installation.quarters_of(run, found, end, planned),
+        "factors": limits.sources_of(found.factors, found.limits),
+        "quarters": band.quarters_of(run, found, end, planned),
+        "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),
     }

@@ -10,6 +10,7 @@ from caisson.results import Results
 from caisson.design.reasons import text_of
 
 ASSUMED = "ASSUMED"
+WALLS = {"wall_friction_angle_deg", "wall_adhesion_Pa"}  # of a layer
 BODY, SOIL = "Rigid body", "Soil/Layer"
 SCALES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 SCALED = ("Pa", "N", "N/m3")  # units that are written with a prefix
@@ -147,9 +148,10 @@ def caisson_of(run: Results) -> list[Item]:
         Item("Area of the tip", f"{tip:.3g} m²"),
     ]
     found += tip_of(run)
+    by_layer = any(WALLS & set(layer) for layer in scene.get("layers", []))
     for side in ("outer", "inner"):
         angle = scene.get(f"{side}_wall_friction_angle_deg")
-        if angle is not None:
+        if angle is not None and not (by_layer and not float(angle)):
             entry = f"{BODY}/Friction angle of the {side} wall"
             name = f"Friction angle of the {side} wall"
             found.append(Item(name, f"{float(angle):g}°", is_assumed(run, entry)))

@@ -13,22 +13,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves, disk, evaluation
-from caisson.report import installation, pull
-from caisson.report.installation import BOILING, COMPUTED, NOTHING, PIPING, PUMP
-from caisson.report.installation import Installation, Rate
-from caisson.report.scene import end_of, entry_of, plug_area
+from caisson.report import installation, pull, remedies
+from caisson.plot import limits
+from caisson.plot.limits import BOILING, COMPUTED, PIPING
+from caisson.report.installation import NOTHING, Installation, Rate
+from caisson.report.scene import end_of, entry_of
 from caisson.results import Results
 
-KEY, END = "verdict", "feasible_to_m"  # in run.json
+KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
 REASONS = {
     COMPUTED: "piping",
     PIPING: "piping by Houlsby & Byrne",
     BOILING: "boiling below the lid",
 }
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
-OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
-LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
-REMEDIES = "A shorter skirt, a larger diameter or a thinner wall helps, too."
+FINER = 21  # rows between two of the tables
 
 
 class Verdict(NamedTuple):
@@ -46,7 +45,7 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
     if not beyond.any():
         return None
     i = int(np.argmax(beyond))
-    if i and np.isfinite(limit[i - 1]):
+    if i and np.isfinite(limit[i - 1]) and limit[i] > 0:  # 0 is the lid
         excess = (found.required - limit)[i - 1 : i + 1]
         return float(np.interp(0, excess, found.depth[i - 1 : i + 1])), i
     return float(found.depth[i]), i
@@ -58,7 +57,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
-    return float(f"{ended['penetration_m']:.3g}"), IN_PROGRAM.get(reason, reason)
+    return limits.rounded_down(ended["penetration_m"]), IN_PROGRAM.get(reason, reason)
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
@@ -68,8 +67,14 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
         return None
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
+    if i := end[1]:  # rows are far apart where a tip comes into another layer
+        between = np.linspace(found.depth[i - 1], found.depth[i], FINER)
+        finer = installation.installation_of(run, Rate(), between)
+        if finer and (sharper := reached(finer, finer.allowable)):
+            found, end = finer, sharper
     name = found.governing(end[1])
-    return float(f"{end[0]:.3g}"), REASONS.get(name, name)
+    words = found.named(name).replace(name, REASONS.get(name, name))
+    return limits.rounded_down(end[0]), words
 
 
 def beside_gradient(run: Results) -> str:
@@ -95,53 +100,14 @@ def feasible_part(
     return installation.installation_of(run, rate, at) or found
 
 
-def changes_between(run: Results, top: float, bottom: float) -> bool:
-    """Return whether another layer begins between two depths (m)."""
-    tops = [layer.get("top_depth_m", 0) for layer in run.scene.get("layers", [])]
-    return any(top < depth < bottom for depth in tops)
-
-
-def needed_at(run: Results, found: Installation, target: float) -> str:
-    """Return what would be needed to reach a depth (m), in a sentence: by required and
-    allowable suction that go on as at the end of what is feasible."""
-    depth = found.depth
-    way = max(LEAST_WAY, OF_WAY * (depth[-1] - depth[0]))
-    rows = (depth >= depth[-1] - way) | (
-        np.arange(len(depth)) >= len(depth) - LEAST_ROWS
-    )
-    rows &= np.isfinite(found.allowable) & (found.required > NOTHING)
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    if rows.sum() < 2 or not weight or not run.scene.get("wall_thickness_m"):
-        return ""
-    required, allowable = (
-        float(np.polyval(np.polyfit(depth[rows], values[rows], 1), target))
-        for values in (found.required, found.allowable)
-    )
-    more = plug_area(run.scene) * (required - allowable)
-    if not more > 0:
-        return ""
-    place = found.shown.place(target)
-    if changes_between(run, float(depth[rows][0]), target):
-        known = f"how much in the soil down to {place} is not known"
-        return f" More weight helps; {known}. {REMEDIES}"
-    needed = found.shown.force(float(f"{weight + more:.2g}"))
-    pump = ""
-    if found.governing(len(depth) - 1) == PUMP:
-        pump = f", or a pump for {found.shown.words(required, 'kPa', '.2g')},"
-    return (
-        f" About {needed} of weight in all{pump} would be needed at {place}. {REMEDIES}"
-    )
-
-
 def share_of_allowable(found: Installation) -> str:
     """Return the largest share of the allowable suction, and what limits it."""
     shares = found.required / found.allowable
     if not (shares > 0).any():
         return ""
     i = int(np.nanargmax(shares))
-    return (
-        f", at most {100 * shares[i]:.0f} % of the allowable one ({found.governing(i)})"
-    )
+    name = found.named(found.governing(i))
+    return f", at most {100 * shares[i]:.0f} % of the allowable one ({name})"
 
 
 def of_suction(
@@ -159,7 +125,7 @@ def of_suction(
             f"Feasible to {place}: there the required suction reaches the allowable one"
             f" ({reason})."
         )
-        return words + needed_at(run, found, planned or depth)
+        return words + remedies.sentence_of(run, found, planned or depth)
     by = f"by {weight} alone: no suction is needed"
     if found.has_suction:
         most = int(np.argmax(found.required))
@@ -234,15 +200,38 @@ def lines_of(run: Results) -> list[str]:
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
+def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
+    """Return required and allowable suction (Pa) and what governs it, by depth (m)."""
+    found = installation.installation_of(run, Rate())
+    if found is None or not found.limits:
+        return []
+    found = feasible_part(run, found, end)
+    return [
+        {
+            evaluation.DEPTH: float(h),
+            evaluation.SUCTION: 1e3 * float(found.required[i]),
+            "allowable_suction_Pa": 1e3 * float(found.allowable[i]),
+            "governed_by": found.governing(i),
+            "factor": found.factors[found.governing(i)],
+        }
+        for i, h in enumerate(found.depth)
+        if found.governing(i)
+    ]
+
+
 def keep(run: Results) -> str:
     """Write the verdict of a run that has ended into its run.json, with the depth where
-    suction ends; return it."""
+    suction ends and the limits over depth; return it."""
     found, path = verdict_of(run), run.directory / "run.json"
     if run.is_running or not found.text:
         return found.text
     known: dict[str, Any] = json.loads(disk.read_text(path))
-    more = {KEY: found.text} | ({END: found.end} if found.end is not None else {})
-    new = {k: v for k, v in known.items() if k not in (KEY, END)} | more
+    more: dict[str, Any] = {KEY: found.text} | (
+        {END: found.end} if found.end is not None else {}
+    )
+    if rows := rows_of_limits(run, found.end):
+        more[LIMITS] = rows
+    new = {k: v for k, v in known.items() if k not in (KEY, END, LIMITS)} | more
     if new != known:
         disk.write(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
     return found.text

@@ -18,29 +18,36 @@ place of layers a cone test may be given,
 or, of sand, no more than its density:
 
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --sand dense own.prm
+
+A cone test also gives own_low.prm and own_high.prm, the same caisson in soil of low and
+of high resistance, and so do --low and --high, with what differs from a layer, or
+--spread. `caisson run --band own.prm` runs all three:
+
+    caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --weight 100kN \\
+      --layer "0: Dr = 60%" --low "0: Dr = 50%" --high "0: Dr = 70%" own.prm
 """
 import argparse
 import functools
 import os
 import re
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf
 from pathlib import Path
 from typing import Any
 
 from caisson import density_law
+from caisson.band import member_of
 from caisson.design import cone_texts
 from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
-from caisson.suggest import clay, cone, sand
+from caisson.suggest import band, clay, cone, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import (
     DEFAULT_ROW,
     LEVELS,
     Body,
-    Level,
     frames_of,
     mesh_of,
     start_of,
@@ -92,9 +99,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
-    text = "write a study, too: of angle or density, or of a cone test's estimates"
+    text = (
+        "write a study, too: of angle or density, of a cone test's estimates, or with"
+        " --spread of twenty runs for P5, P50 and P95"
+    )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
+    band.add_arguments(parser)
     interpretation.add_arguments(parser)
 
 
@@ -137,7 +148,7 @@ def percent(text: str) -> int:
     return int(text.removesuffix("%"))
 
 
-def check(options: argparse.Namespace) -> None:
+def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = options, options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
@@ -186,6 +197,7 @@ def check(options: argparse.Namespace) -> None:
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
     files: list[Path] = [f for f in (options.file, options.study) if f]
+    files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
@@ -235,17 +247,28 @@ def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
     """Return what the template takes of weight and water. Where all of the soil is
-    undrained clay no water flows. soil: the layers with all of their entries."""
+    undrained clay no water flows, and clay with a law of effective stress keeps its
+    water. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
     clays = list(map(is_clay, layers))
-    if not all(clays):
+    of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
+    if all(c or e for c, e in zip(clays, of_effective_stress)):
+        level = "undrained" if any(of_effective_stress) else "drained"
+    else:
         refuse_quick_clay(reached(options, layers))
         soil = with_permeability(soil)
+        level = "seepage"
+        if any(of_effective_stress):
+            raise SuggestError(
+                f"layer {1 + of_effective_stress.index(True)}: {CAM_CLAY} beside sand"
+                " is for a coupled run, which takes a slower penetration. Give the"
+                " clay as su, or write the scene with Water/Level = coupled by hand"
+            )
     return {
         "weight": options.weight,
         "water_depth": options.water_depth,
-        "flows": not all(clays),
+        "water_level": level,
         "has_clay": any(clays),
         "layers": soil,
     }
@@ -366,8 +389,12 @@ def density_after(layer: Layer, change: float) -> float:
     return round(min(max(share, 0.0), 1.0), 4)
 
 
-def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level) -> str:
-    """Return the text of the scene."""
+def scene_of(
+    options: argparse.Namespace, layers: Sequence[Layer], file: Path, of_band: str = ""
+) -> str:
+    """Return the text of the scene of a file. of_band: which estimate it is, with a
+    comma before it."""
+    level = LEVELS[options.error]
     body = Body(options.diameter, options.skirt, options.wall)
     start, end = begin_of(options), end_of(options)
     mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
@@ -381,7 +408,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
     )
     return template(HERE / "scene.prm.jinja").render(
         title=f"a caisson of {size.length(body.diameter)} with a wall of"
-        f" {body.wall * 1e3:g} mm, {how}",
+        f" {body.wall * 1e3:g} mm, {how}{of_band}",
         body=body,
         level=level,
         mesh=mesh,
@@ -396,7 +423,7 @@ def scene_of(options: argparse.Namespace, layers: Sequence[Layer], level: Level)
         is_clay=all(map(is_clay, deep)),
         smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
         default_row=DEFAULT_ROW,
-        directory=f"results/{options.file.stem}",
+        directory=f"results/{file.stem}",
         frames=frames_of(start, end),
         **flow_of(options, layers, soil),
     )
@@ -465,11 +492,29 @@ def cost_of(file: Path, text: str) -> str:
             ) from error
 
 
-def write(options: argparse.Namespace) -> None:
-    """Write the scene, and the study if there is to be one; say what the scene will
-    cost. Raises SuggestError, RunError, InputError or OSError."""
-    check(options)
+def ends_of(
+    options: argparse.Namespace,
+    layers: Sequence[Layer],
+    known: Mapping[str, str],
+    found: Interpretation | None,
+) -> dict[str, list[Layer]]:
+    """Return the layers of the low and the high estimate, of which there is one.
+    known: the units of entries; found: a cone test. Raises SuggestError."""
+    if found is None:
+        return band.of_texts(texts_of(options), known, law_of(options), options)
+    choices = cone.choices_of(
+        found, end_of(options), options.wall_friction, law_of(options)
+    )
+    return band.of_choices(layers, choices)
+
+
+def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
+    """
+    check(options, estimates)
     found = None
+    known = {} if options.cpt else entries_of_layers()
     if options.cpt:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
@@ -478,39 +523,59 @@ def write(options: argparse.Namespace) -> None:
         if warning := cone.end_of_test(found, end_of(options)):
             print(warning)
     else:
-        layers = layers_of(texts_of(options), entries_of_layers(), law_of(options))
+        layers = layers_of(texts_of(options), known, law_of(options))
         for layer in layers:
             if layer.warning:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
-    texts = {options.file: scene_of(options, layers, LEVELS[options.error])}
+    texts = {options.file: scene_of(options, layers, options.file)}
+    ends = ends_of(options, layers, known, found) if estimates else {}
+    for estimate, soil in ends.items():
+        file, words = member_of(options.file, estimate), f", {estimate} estimate"
+        texts[file] = scene_of(options, soil, file, words)
+    costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
-        texts[options.study] = (
-            soil_study_of(options, found) if found else study_of(options, layers)
-        )
-    cost = cost_of(options.file, texts[options.file])
+        if estimates and options.spread:
+            given = texts_of(options)
+            deep = reached(options, layers)
+            texts[options.study] = band.study_of(options, given, layers, deep, known)
+        else:
+            texts[options.study] = (
+                soil_study_of(options, found) if found else study_of(options, layers)
+            )
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
         texts[table] = cone_file.text_of(found.test)
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)
-    print(cost)
+    print(costs[0])
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
     for remark in remarks_on(options):
         print(remark)
 
 
+def write_all(options: argparse.Namespace) -> list[str]:
+    """Write the scene with those of its band; return which estimates these are. Raises
+    SuggestError, RunError, InputError or OSError."""
+    band.check(options)
+    estimates = band.estimates_of(options)
+    write(options, estimates)
+    return estimates
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    write(options)
+    estimates = write_all(options)
     run, study = (
         ("caisson run", "caisson study")
         if INSTALLED
         else ("scripts/run", "scripts/caisson study")
     )
-    print(f"written: {options.file}; next: {run} {options.file}")
+    files = [options.file, *(member_of(options.file, e) for e in estimates)]
+    how = f"{run} --band" if estimates else run
+    print(f"written: {', '.join(map(str, files))}; next: {how} {options.file}")
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
         f" error, with its error bar: {run} --error {options.error}% {options.file}"

@@ -13,7 +13,12 @@ from collections.abc import Iterable, Mapping
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
 from caisson.design.correlations import MODULUS_RATIOS
-from caisson.design.density import ATMOSPHERE, CRITICAL_ANGLE, cone_resistance
+from caisson.design.density import (
+    ATMOSPHERE,
+    CRITICAL_ANGLE,
+    cone_resistance,
+    density_of_angle,
+)
 
 # relative density in the middle of a class, and its ends in % (ISO 14688-2)
 WORDS = {
@@ -34,6 +39,7 @@ SAND = "Sand"  # in place of an entry: one of WORDS
 KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
 OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
 GRAVITY, SOLID, WATER = 9.81, 2650.0, 1000.0  # m/s2, kg/m3
+OF_CONE = "2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)"
 # of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
 WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any density")
 # what no law by density has
@@ -126,6 +132,19 @@ def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
     return list(found.values())
 
 
+def modulus_of(angle: str) -> Entry | None:
+    """Return Youngs modulus of sand that is given by its friction angle (degrees), by
+    the density that the design methods take for it; None for an expression."""
+    try:
+        degrees = float(angle)
+    except ValueError:
+        return None
+    density = float(density_of_angle(degrees, ATMOSPHERE, ATMOSPHERE))
+    modulus = MODULUS_RATIOS[1] * cone_resistance(density, ATMOSPHERE)
+    why = f"D_r = {density:.2g} by phi (Bolton 1986), {OF_CONE}"
+    return Entry("Youngs modulus", f"{modulus:.3g}", f"{ASSUMPTION}: {why}")
+
+
 def at_rest(angle: str) -> list[Entry]:
     """Return K0 for a critical angle (degrees); nothing for an expression, whose K0 the
     program finds."""
@@ -157,7 +176,7 @@ def numbers_of(
             Entry(
                 names.MODULUS,
                 f"{MODULUS_RATIOS[1] * cone:.3g}",
-                f"{ASSUMPTION}: 2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)",
+                f"{ASSUMPTION}: {OF_CONE}",
             ),
             Entry(names.REFERENCE_STRESS, f"{ATMOSPHERE:g}"),
             Entry(names.EXPONENT, "0.5", ASSUMPTION),

@@ -4,7 +4,7 @@ symbols and units as engineers write them: "0: phi = 33, E = 20 MPa". Sand may b
 by its density: "TOP: Sand = dense", "TOP: Dr = 85%"."""
 import difflib
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 from caisson import density_law as names
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
@@ -98,6 +98,10 @@ LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
 DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
 
+# texts of a layer by the names of entries, and what their values are multiplied by
+Given = tuple[dict[str, str], dict[str, float]]
+Change = Callable[[float, dict[str, str]], Given]  # top of a layer (m) and its texts
+
 
 def law_named(text: str) -> str:
     """Return a law by its name, in which case, spaces and hyphens do not matter."""
@@ -174,10 +178,12 @@ def pair_of(part: str) -> tuple[str, str]:
     return word, value
 
 
-def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
-    """Return what is given of a layer, by names of entries. Raises SuggestError."""
+def texts_in(text: str, known: Mapping[str, str], law: str = "") -> dict[str, str]:
+    """Return what is given of a layer as it is written, by names of entries. law: of
+    the layer whose entries these change, "" for a layer of its own. Raises
+    SuggestError."""
     found = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
-    law = law_named(found[1].strip()) if found else MOHR_COULOMB
+    law = law_named(found[1].strip()) if found else law or MOHR_COULOMB
     texts: dict[str, str] = {}
     for word, value in map(pair_of, quantity.parts_of(text)):
         name = name_of(word, known, law)
@@ -186,16 +192,36 @@ def given_in(text: str, known: Mapping[str, str]) -> dict[str, str]:
         if law in LAWS and name in (*sand.FOREIGN[:3], STRENGTH):
             raise SuggestError(f"--layer: {law} takes no {word}; give {INSTEAD[law]}")
         texts[name] = law if name == "Law" else value
+    return texts
+
+
+def values_in(
+    texts: Mapping[str, str], known: Mapping[str, str], factors: Mapping[str, float]
+) -> dict[str, str]:
+    """Return what is given of a layer in the units of the entries. factors: of those
+    that are not as they are given. Raises SuggestError."""
     symbols: dict[str, str] = {}
+
+    def value(name: str) -> str:
+        found = value_of(name, texts[name], known, symbols)
+        return times(factors[name], found) if name in factors else found
+
     if STRENGTH in texts:  # other entries may be multiples of it
-        strength = value_of(STRENGTH, texts[STRENGTH], known, {})
+        strength = value(STRENGTH)
         symbols = {s: strength for s, n in DERIVED.items() if n == STRENGTH}
-    return {n: value_of(n, value, known, symbols) for n, value in texts.items()}
+    return {name: value(name) for name in texts}
 
 
-def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
-    """Return a layer. known: the units of all entries of a layer by their names; law:
-    of sand by its density, a name of sand.LAWS. Raises SuggestError."""
+def times(factor: float, value: str) -> str:
+    """Return a number, or an expression, times a factor."""
+    try:
+        return f"{factor * float(value):.6g}"
+    except ValueError:
+        return f"{factor:.6g}*({value})"
+
+
+def head_of(text: str) -> tuple[float, str]:
+    """Return the top of a layer (m), and what is given of it. Raises SuggestError."""
     head, colon, rest = text.partition(":")
     try:
         top = quantity.value_of(head, "m")
@@ -206,7 +232,22 @@ def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
             f"--layer {text!r} must begin with the depth of its top in meters and a"
             ' colon, as in "0: phi = 33, E = 20 MPa"'
         )
-    given = given_in(rest, known)
+    return top, rest
+
+
+def as_given(_: float, texts: dict[str, str]) -> Given:
+    """Return what is given of a layer, as it is."""
+    return texts, {}
+
+
+def layer_of(
+    text: str, known: Mapping[str, str], law: str, change: Change = as_given
+) -> Layer:
+    """Return a layer. known: the units of all entries of a layer by their names; law:
+    of sand by its density, a name of sand.LAWS. Raises SuggestError."""
+    top, rest = head_of(text)
+    texts, factors = change(top, texts_in(rest, known))
+    given = values_in(texts, known, factors)
     weight, strength = given.pop(WEIGHT, ""), given.pop(STRENGTH, "")
     if is_clay_by_angle(given):
         strength = given.pop("Cohesion")
@@ -222,6 +263,15 @@ def layer_of(text: str, known: Mapping[str, str], law: str) -> Layer:
         )
     if is_by_density:
         return Layer(top, sand.sand_of(given, law))
+    angle, modulus = given.get("Friction angle", ""), "Youngs modulus"
+    is_plain = given.get("Law", MOHR_COULOMB).startswith(MOHR_COULOMB)
+    if is_plain and angle and names.DENSITY in given and names.DENSEST not in given:
+        raise SuggestError(
+            f"--layer {text!r} gives friction angle and relative density: leave out"
+            " either; the angle follows from the density"
+        )
+    if is_plain and angle and not strength and modulus not in given:
+        derived += filter(None, [sand.modulus_of(angle)])
     remarks = {entry.name: entry for entry in derived}
     entries = entries_of(given | {e.name: e.value for e in derived}, text)
     warning = doubt_of(weight, given) if weight else ""
@@ -328,9 +378,15 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     ]
 
 
-def layers_of(texts: Iterable[str], known: Mapping[str, str], law: str) -> list[Layer]:
-    """Return all layers. law: of sand by its density. Raises SuggestError."""
-    layers = [layer_of(text, known, law) for text in texts]
+def layers_of(
+    texts: Iterable[str],
+    known: Mapping[str, str],
+    law: str,
+    change: Change = as_given,
+) -> list[Layer]:
+    """Return all layers. law: of sand by its density; change: what is given of each of
+    them, before it is read. Raises SuggestError."""
+    layers = [layer_of(text, known, law, change) for text in texts]
     tops = [layer.top for layer in layers]
     if tops[:1] != [0.0]:
         raise SuggestError("the first --layer must begin at 0")

@@ -31,6 +31,7 @@ class CaissonMpm(CMakePackage):
         depends_on("python@3.11:", type="run")
         depends_on("py-numpy", type="run")
         depends_on("py-scipy", type="run")
+        depends_on("py-scikit-learn", type="run")
         depends_on("py-matplotlib", type="run")
         depends_on("py-jinja2", type="run")
         depends_on("py-openpyxl", type="run")

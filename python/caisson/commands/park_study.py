@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies of kind "park": a run for each position, as `caisson park` writes them.
+
+Keys of a run beside the usual ones: position, the cells of its row in the table, and
+estimate: low, best or high, of a band. Each run gets its page, and overview.html,
+overview.csv and overview.png show all positions, the worst first.
+"""
+import concurrent.futures
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from caisson import disk, plot, report
+from caisson.band import BEST, ESTIMATES, member_of
+from caisson.parameters.outcome import COMPLETE, status_of
+from caisson.paths import short
+from caisson.ranks import cores
+from caisson.report import installation, verdict
+from caisson.report.scene import end_of
+from caisson.results import Results
+from caisson.runner import Run
+from caisson.study import Options, Study, StudyRun
+from caisson.study_command import query_size
+from caisson.table import digits, write_csv
+from caisson.template import template
+
+NAME = "park"
+STUDY_KEYS = set[str]()
+RUN_KEYS = {"position", "estimate"}
+HERE = Path(__file__).parent
+PAGE, TABLE, PICTURE = "overview.html", "overview.csv", "overview.png"
+COLORS = ("#2166ac", "#d95f02", "#1b9e77", "#7570b3", "#a6761d", "#e7298a", "#666666")
+HEADS = (
+    "position",
+    "utilization",
+    "governed_by",
+    "feasible_to_m",
+    "planned_m",
+    "self_weight_penetration_m",
+    "largest_suction_kPa",
+    "verdict",
+    "page",
+)
+
+
+class Row(NamedTuple):
+    """A position: what is said of it, numbers that are nan where they are not known,
+    and its page from the folder of the overview, "" for none."""
+
+    name: str
+    verdict: str
+    is_complete: bool
+    share: float = math.nan  # of the allowable suction
+    governing: str = ""
+    feasible: float = math.nan  # m
+    planned: float = math.nan  # m
+    rest: float = math.nan  # m
+    suction: float = math.nan  # kPa
+    page: str = ""
+
+    @property
+    def rank(self) -> tuple[bool, float, float]:
+        """Its place: runs without a result, and then the worst, come first."""
+        reached = self.feasible / self.planned if self.planned else math.nan
+        share = self.share if math.isfinite(self.share) else -1.0
+        return self.is_complete, -share, reached if math.isfinite(reached) else 1.0
+
+
+def check(studies: Sequence[Study], jobs: int) -> None:
+    """Ask for the sizes of the runs that are not complete."""
+    runs = [run for study in studies for run in study.runs]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        missing = [run for run in runs if run.run.completion_record() is None]
+        list(pool.map(query_size, missing))
+
+
+def page_of(directory: Path) -> str:
+    """Draw the pictures and write the page of a run, if it has none since its end and
+    that of its band; return why there is none, "" where there is."""
+    page = directory / report.NAME
+    records = [member_of(directory, estimate) / Run.RECORD for estimate in ESTIMATES]
+    last = max(record.stat().st_mtime for record in records if record.is_file())
+    if page.is_file() and page.stat().st_mtime >= last:
+        return ""
+    try:
+        plot.draw(directory)
+        report.write(directory)
+    except Exception as error:  # whatever it is, the run was good
+        return f"no page of {directory}: {type(error).__name__}: {error}"
+    return ""
+
+
+def row_of(run: StudyRun, folder: Path) -> Row:
+    """Return what has become of a position."""
+    status, why = status_of(run)
+    page = run.run.directory / report.NAME
+    link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
+    name = run.settings.get("position", {}).get("name", run.name)
+    if status != COMPLETE:
+        text = ": ".join(filter(None, (status, disk.one_line(why))))
+        return Row(name, f"No result ({text}).", False, page=link)
+    return with_numbers(Row(name, "", True, page=link), run.results)
+
+
+def with_numbers(row: Row, run: Results) -> Row:
+    """Return a row with what a run says."""
+    said = verdict.verdict_of(run)
+    found = installation.installation_of(run, installation.Rate())
+    row = row._replace(verdict=said.text or "The run says nothing.")
+    if found is None:
+        return row
+    part = verdict.feasible_part(run, found, said.end)
+    row = row._replace(
+        feasible=said.end or float(found.depth[-1]),
+        planned=end_of(run) or math.nan,
+        rest=math.nan if found.rest is None else found.rest,
+    )
+    if not len(part.required):
+        return row
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shares = np.nan_to_num(part.required / part.allowable)
+    i = int(np.argmax(shares))
+    share = max(1.0, float(shares[i])) if said.end is not None else float(shares[i])
+    name = said.reason or (part.governing(i) if share > 0 else "")
+    most = float(part.required.max())
+    return row._replace(share=share, governing=name, suction=most)
+
+
+def draw(path: Path, rows: Sequence[Row]) -> Path:
+    """Draw the utilization of the positions, the worst above; return the path."""
+    figure = Figure(figsize=(8, 1.6 + 0.3 * len(rows)))
+    axes = figure.subplots()
+    limits = list(dict.fromkeys(row.governing for row in rows if row.governing))
+    for i, row in enumerate(rows):
+        if math.isfinite(row.share):
+            number = limits.index(row.governing) if row.governing else -1
+            axes.barh(i, row.share, color=COLORS[number % len(COLORS)])
+        place = row.share if math.isfinite(row.share) else 0.0
+        text = f"{place:.2f}" if row.is_complete else "no result"
+        if row.is_complete and not math.isfinite(row.share):
+            text = "no suction"
+        axes.text(place, i, f" {text}", va="center", fontsize=8)
+    for number, name in enumerate(limits):
+        axes.barh(0, 0, color=COLORS[number % len(COLORS)], label=name)
+    axes.axvline(1, color="#c0392b", linestyle="--", label="allowable")
+    axes.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=8)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_xlim(
+        0, 1.25 * max(1.0, *(row.share for row in rows if row.share > 0), 1.0)
+    )
+    axes.set_xlabel("required suction / allowable suction, the largest on the way")
+    axes.legend(fontsize=8, loc="lower right")
+    figure.tight_layout()
+    return disk.save(figure, path)
+
+
+def write_table(path: Path, rows: Sequence[Row]) -> Path:
+    """Write overview.csv; return its path."""
+    cells = [
+        [
+            row.name,
+            digits(row.share, 3),
+            row.governing,
+            *(digits(x, 4) for x in (row.feasible, row.planned, row.rest, row.suction)),
+            row.verdict,
+            row.page,
+        ]
+        for row in rows
+    ]
+    write_csv(path, HEADS, cells)
+    return path
+
+
+def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
+    """Write pages and overview; return 1 where a position has no result."""
+    folder, runs = options.results, [run for study in studies for run in study.runs]
+    done = [run.run.directory for run in runs if status_of(run)[0] == COMPLETE]
+    with concurrent.futures.ProcessPoolExecutor(cores()) as pool:
+        for trouble in filter(None, pool.map(page_of, done)):
+            print(trouble)
+    best = [run for run in runs if run.settings.get("estimate", BEST) == BEST]
+    rows = sorted((row_of(run, folder) for run in best), key=lambda row: row.rank)
+    complete = [row for row in rows if row.is_complete]
+    write_table(folder / TABLE, rows)
+    draw(folder / PICTURE, rows)
+    css = Path(report.__file__).parent / "page.css"
+    text = template(HERE / "overview.html.jinja", digits=digits).render(
+        title=studies[0].title,
+        rows=rows,
+        complete=len(complete),
+        feasible=sum(not row.share >= 1 for row in complete),
+        style=css.read_text(encoding="utf-8"),
+        picture=PICTURE,
+        table=TABLE,
+    )
+    disk.write(folder / PAGE, text)
+    for row in rows:
+        print(f"{row.name}: {row.verdict}")
+    print(f"park: {len(complete)} of {len(rows)} positions in {minutes:.1f} min")
+    print(f"next: open {short(folder / PAGE)}")
+    return 0 if len(done) == len(runs) else 1

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs of low, best and high resistance at the same time, one core each, and the page
+of the best one with all three."""
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
+from caisson.progress import span
+from caisson.ranks import cores
+from caisson.runner import Run, RunError, Status, read_parameters
+from caisson.study import StudyRun, execute
+
+CHECKPOINT = "checkpoint.info"
+
+
+def options_of(words: Sequence[str]) -> argparse.Namespace:
+    """Return the options of the program that a band takes. Raises RunError."""
+    parser = argparse.ArgumentParser(add_help=False)
+    for name in ("--restart", "--overwrite"):
+        parser.add_argument(name, action="store_true")
+    parser.add_argument("--set", action="append", default=[])
+    found, other = parser.parse_known_args(words)
+    if other:
+        raise RunError(
+            f"--band takes --set, --restart and --overwrite, not {other[0]}. Write the"
+            " entries that you change into the scenes"
+        )
+    return found
+
+
+def scenes_of(best: Path) -> dict[str, Path]:
+    """Return the scenes of a band by estimate, as far as there are such. Raises
+    RunError without any beside the best one."""
+    members = {estimate: member_of(best, estimate) for estimate in ESTIMATES}
+    found = {e: path for e, path in members.items() if path.is_file()}
+    if BEST not in found:
+        raise RunError(f"there is no scene {best}")
+    if len(found) == 1:
+        raise RunError(
+            f"beside {best} there is neither {members[LOW].name} nor"
+            f" {members[HIGH].name}: caisson suggest --spread, or --low and --high,"
+            " writes them"
+        )
+    return found
+
+
+def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
+    """Return the runs of a band by estimate, checked by the program, with how long they
+    take. Their directories are named after that of the best one. Raises RunError."""
+    given = [word for k, v in entries.items() for word in ("--set", f"{k}={v}")]
+    directory = Path(read_parameters([str(best), *given])["Output/Directory"])
+    found = {}
+    for estimate, scene in scenes_of(best).items():
+        place = member_of(directory, estimate).resolve()
+        run = Run(scene.resolve(), entries, place)
+        size = run.validate()
+        found[estimate] = StudyRun("run:", scene.stem, "", "", 0, {}, run, size=size)
+    return found
+
+
+def prepare(member: StudyRun, options: argparse.Namespace) -> bool:
+    """Say what is to be done for a run; return whether it is to be computed."""
+    run, name = member.run, f"run: {member.name}"
+    if not options.overwrite and run.is_complete():
+        ended = "complete" if member.status == Status.SUCCESS else "failed before"
+        print(f"{name}: {ended}, and not repeated; --overwrite repeats it")
+        return False
+    has_checkpoint = (run.directory / CHECKPOINT).is_file()
+    run.restarts = options.restart and has_checkpoint
+    about = f", {span(member.size.least, member.duration)}" if member.duration else ""
+    how = "from its checkpoint" if run.restarts else "from its start"
+    hint = "; --restart resumes it" if has_checkpoint and not run.restarts else ""
+    print(f"{name}: {how}{about}{hint}", flush=True)
+    return True
+
+
+def compute(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool:
+    """Compute what is missing, one core each; return whether that was stopped."""
+    to_do = [member for member in runs.values() if prepare(member, options)]
+    try:
+        execute([(to_do, min(3, cores()), 1)], again=True)
+    except KeyboardInterrupt:
+        print("run: stopped; --restart resumes", file=sys.stderr)
+        return True
+    return False
+
+
+def main(
+    words: Sequence[str],
+    draw: Callable[[Path, None, bool], None],
+    reporting: Callable[[Path], AbstractContextManager[None]],
+) -> int:
+    """Run a band and draw it, the best run last and in full; return the largest exit
+    status. words: the best scene, and options of the program; draw: draws a run;
+    reporting: renews the page of the best one as long as it runs."""
+    options = options_of(words[1:])
+    entries = dict(text.split("=", 1) for text in options.set if "=" in text)
+    runs = runs_of(Path(words[0]), {k.strip(): v.strip() for k, v in entries.items()})
+    with reporting(runs[BEST].run.directory):
+        if compute(runs, options):
+            return Status.STOPPED
+    for estimate in (LOW, HIGH, BEST):
+        if estimate in runs and runs[estimate].status is not None:
+            draw(runs[estimate].run.directory, None, estimate == BEST)
+    for member in runs.values():
+        if member.trouble:
+            print(f"run: {member.name}: {member.trouble}", file=sys.stderr)
+    return max(Status.FAILURE if m.status is None else m.status for m in runs.values())

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The suction under which the wall of a caisson buckles, by DNV-RP-C202.
+
+Between the lid, or a ring, and a point in the soil the wall is an unstiffened cylinder
+of the length l, the free length above the mudline and a fixity depth below it. Its
+stresses are those of a pressure p from outside, and of weight and suction on the lid:
+
+    sigma_h = p r / t,          sigma_a = (V + s A_i) / (2 pi r t)      (compression).
+
+The elastic strength for each of them alone is
+
+    f_E = C pi^2 E / (12 (1 - nu^2)) (t / l)^2,     C = psi sqrt(1 + (rho xi / psi)^2),
+
+                    psi   xi            rho
+    axial stress    1     0.702 Z       0.5 / sqrt(1 + r / (150 t))
+    pressure        4     1.04 sqrt(Z)  0.6             Z = l^2 / (r t) sqrt(1 - nu^2)
+
+and 0.25 E (t / r)^2 under pressure where l / r > 2.25 sqrt(r / t). With the equivalent
+stress sigma_j = sqrt(sigma_a^2 - sigma_a sigma_h + sigma_h^2) follow
+
+    lambda^2 = f_y / sigma_j (sigma_a / f_Ea + sigma_h / f_Eh),
+    f_d = f_y / sqrt(1 + lambda^4) / gamma_M,       unity check = sigma_j / f_d,
+
+and gamma_M from 1.15 (lambda < 0.5) to 1.45 (lambda > 1). rho holds for walls within
+the tolerances that the practice refers to (DNV-OS-C401); there are no classes of them.
+The row for lateral pressure is taken, as the axial stress counts on its own.
+
+p is the suction above the mudline. Below it, it is the difference of the normal stress
+with the pore pressure outside and inside that a run computed (wall.csv); the mean over
+l is weighted with the square of a half wave, as the work of the pressure is when the
+wall buckles. SI units, but for columns; depths are below the mudline.
+"""
+from collections.abc import Sequence
+from math import inf, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from caisson.results import Results, Table
+
+POISSON_RATIO = 0.3
+LONG, OF_LONG = 2.25, 0.25
+SIDES = ("outer", "inner")
+
+
+class Wall(NamedTuple):
+    """The steel wall of a caisson: outer diameter, thickness and length (m), and the
+    steel (Pa). fixity: depth of fixity over the diameter; rings: spacing (m)."""
+
+    diameter: float
+    thickness: float
+    length: float
+    yield_strength: float = 355e6
+    youngs_modulus: float = 210e9
+    fixity: float = 0.5
+    rings: float = inf
+
+    @property
+    def radius(self) -> float:
+        """That of the middle of the wall (m)."""
+        return (self.diameter - self.thickness) / 2
+
+    @property
+    def area_inside(self) -> float:
+        """The area on which suction acts (m2)."""
+        return pi / 4 * (self.diameter - 2 * self.thickness) ** 2
+
+    def free_length(self, h: float) -> float:
+        """Return the length above the mudline at an embedment (m)."""
+        return max(self.length - h, 0.0)
+
+    def buckling_length(self, h: float) -> float:
+        """Return the length that buckles at an embedment (m), from the lid down."""
+        fixed = min(self.fixity * self.diameter, h)
+        return min(self.free_length(h) + fixed, self.rings)
+
+
+def elastic_strengths(wall: Wall, length: float) -> tuple[float, float]:
+    """Return the axial stress, and the hoop stress of a pressure from outside, under
+    which a perfect elastic part of this length (m) would buckle, with rho (Pa)."""
+    r, t, e = wall.radius, wall.thickness, wall.youngs_modulus
+    plate = pi**2 * e / (12 * (1 - POISSON_RATIO**2)) * (t / length) ** 2
+    z = length**2 / (r * t) * sqrt(1 - POISSON_RATIO**2)
+
+    def strength(psi: float, xi: float, rho: float) -> float:
+        return psi * sqrt(1 + (rho * xi / psi) ** 2) * plate
+
+    axial = strength(1.0, 0.702 * z, 0.5 / sqrt(1 + r / (150 * t)))
+    if length / r > LONG * sqrt(r / t):
+        return axial, OF_LONG * e * (t / r) ** 2
+    return axial, strength(4.0, 1.04 * sqrt(z), 0.6)
+
+
+def material_factor(slenderness: float) -> float:
+    """Return gamma_M at a reduced slenderness."""
+    return float(np.interp(slenderness, [0.5, 1.0], [1.15, 1.45]))
+
+
+def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> float:
+    """Return the equivalent stress over the design strength of a part of this length
+    (m), under a pressure from outside (Pa) and an axial force of compression (N)."""
+    r, t, yields = wall.radius, wall.thickness, wall.yield_strength
+    hoop, along = pressure * r / t, axial / (2 * pi * r * t)
+    stress = sqrt(along**2 - along * hoop + hoop**2)
+    if not stress > 0:
+        return 0.0
+    elastic_axial, elastic_hoop = elastic_strengths(wall, length)
+    share = max(along, 0.0) / elastic_axial + max(hoop, 0.0) / elastic_hoop
+    slenderness = sqrt(yields / stress * share)
+    strength = yields / sqrt(1 + slenderness**4) / material_factor(slenderness)
+    return stress / strength
+
+
+def check_at(
+    wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
+) -> float:
+    """Return the unity check at an embedment (m), of suction (Pa) and weight (N); more:
+    what the mean pressure has beyond the suction (Pa)."""
+    axial = weight + suction * wall.area_inside
+    return unity_check(wall, wall.buckling_length(h), suction + more, axial)
+
+
+def limit_suction(
+    wall: Wall, h: float, weight: float, more: float = 0.0, factor: float = 1.0
+) -> float:
+    """Return the suction (Pa) at an embedment (m) at which the unity check is 1 under
+    factored loads; 0 where it is under the weight alone."""
+
+    def excess(suction: float) -> float:
+        loads = (factor * load for load in (suction, weight, more))
+        return check_at(wall, h, *loads) - 1
+
+    if excess(0.0) >= 0:
+        return 0.0
+    yields = wall.yield_strength * wall.thickness / wall.radius
+    most = 2 * (yields / factor + abs(more))
+    return float(brentq(excess, 0.0, most, rtol=1e-6))
+
+
+# -------------------------------------------------- what a run computed
+
+
+def net_pressure(walls: Table) -> np.ndarray:
+    """Return the pressure from outside less that from inside of rows of wall.csv, with
+    the pore water, [n] (Pa)."""
+    outer, inner = (
+        walls[f"{side}_normal_stress_Pa"] + walls.get(f"{side}_pore_pressure_Pa", 0.0)
+        for side in SIDES
+    )
+    return np.asarray(outer - inner)
+
+
+def pressures_of(run: Results, wall: Wall) -> Table:
+    """Return the pressure from outside along the wall at the frames of a run with
+    suction, from the lid down to the tip: columns [n], whose names have the units;
+    empty without such frames."""
+    walls, history = run.walls, run.history
+    if "suction_Pa" not in history or not {
+        f"{side}_normal_stress_Pa" for side in SIDES
+    } <= set(walls):
+        return {}
+    parts = list[np.ndarray]()
+    for time in np.unique(walls["time_s"]):
+        rows = walls["time_s"] == time
+        at = {name: column[rows] for name, column in walls.items()}
+        order = np.argsort(at["depth_m"])
+        h = float(at["penetration_m"][0])
+        s = float(np.interp(time, history["time_s"], history["suction_Pa"]))
+        keep = (at["depth_m"][order] > 0) & np.isfinite(net_pressure(at)[order])
+        z = np.concatenate([[-wall.free_length(h), 0.0], at["depth_m"][order][keep]])
+        p = np.concatenate([[s, s], net_pressure(at)[order][keep]])
+        same = np.ones(len(z))
+        parts.append(np.array([time * same, h * same, z, z - z[0], s * same, p]))
+    names = ("time_s", "penetration_m", "depth_m", "below_lid_m", "suction_Pa")
+    columns = np.concatenate(parts, axis=1)
+    return dict(zip((*names, "net_external_pressure_Pa"), columns))
+
+
+def weighted_mean(x: np.ndarray, values: np.ndarray, length: float) -> float:
+    """Return the mean of values [n] at places x [n] (m) from 0 to a length (m),
+    weighted with the square of a half wave."""
+    at = np.linspace(0, length, 401)
+    weights = np.sin(pi * at / length) ** 2
+    return float(weights @ np.interp(at, x, values) / weights.sum())
+
+
+def beyond_suction(
+    pressures: Table, wall: Wall, depth: Sequence[float] | np.ndarray
+) -> np.ndarray:
+    """Return what the mean pressure on the part that buckles has beyond the suction
+    (Pa) at embedments [n] (m): [n], linear between the frames; 0 without any."""
+    if not pressures:
+        return np.zeros(len(depth))
+    found = []
+    for time in np.unique(pressures["time_s"]):
+        rows = pressures["time_s"] == time
+        at = {name: column[rows] for name, column in pressures.items()}
+        more = at["net_external_pressure_Pa"] - at["suction_Pa"]
+        h = float(at["penetration_m"][0])
+        length = wall.buckling_length(h)
+        found.append((h, weighted_mean(at["below_lid_m"], more, length)))
+    h, more = np.array(sorted(found)).T
+    return np.interp(depth, h, more)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The chart of a log: the required suction that the runs expect and what is allowed,
+the measured line, and the forecast, over depth downward."""
+import textwrap
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from caisson import disk
+from caisson.log.expected import Expected
+from caisson.log.forecast import Bins, Forecast
+from caisson.log.measured import Log, resistance_of
+from caisson.plot.small import in_units, over_depth, with_note
+
+GRAY, RED, BLUE, ORANGE = "0.45", "#c0392b", "#2166ac", "#d95f02"
+MARGIN = 1.15  # of the largest suction of the lines
+FAR = 1.6  # times the largest required suction, beyond which a limit is only named
+
+
+def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
+    """Draw the band of the runs and the allowable suction (kPa). most: of others."""
+    depth = expected.depth
+    low, best, high = (
+        expected.suction(x) for x in (expected.low, expected.best, expected.high)
+    )
+    axes.fill_betweenx(
+        depth, low, high, color=GRAY, alpha=0.2, lw=0, label="expected, low to high"
+    )
+    axes.plot(best, depth, color="black", lw=1.2, label="expected, best estimate")
+    most = max(most, float(high.max()), 1e-3)
+    limit, name = expected.allowable, governing_of(expected)
+    seen = limit[np.isfinite(limit)]
+    if len(seen) and seen.min() < FAR * most:
+        axes.plot(limit, depth, color=RED, lw=1.8, label=f"allowable: {name}")
+        most = max(most, min(float(seen.max()), FAR * most))
+    axes.set_xlim(0, MARGIN * most)
+    axes.set_ylim(1.02 * max(expected.planned, depth[-1]), 0)
+    over_depth(axes, "suction (kPa)", "penetration of the skirt tip (m)")
+
+
+def governing_of(expected: Expected) -> str:
+    """Return what governs the allowable suction from the surface down."""
+    return ", then ".join(dict.fromkeys(filter(None, expected.governing)))
+
+
+def draw_log(
+    axes: Axes, expected: Expected, log: Log, bins: Bins, weight: float
+) -> None:
+    """Draw the readings and the steps that the fit takes, as suctions (kPa) under
+    a weight (kN)."""
+    force = resistance_of(log, expected)
+    axes.plot(
+        expected.suction(force, weight), log.depth, ".", color=BLUE, ms=2, alpha=0.35
+    )
+    line = expected.suction(bins.resistance, weight)
+    axes.plot(line, bins.depth, color=BLUE, lw=2, label="measured")
+
+
+def draw_forecast(axes: Axes, forecast: Forecast) -> None:
+    """Draw the forecast with its band (kPa)."""
+    style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
+    label = "forecast, nine in ten"
+    axes.fill_betweenx(
+        forecast.depth, forecast.low, forecast.high, label=label, **style
+    )
+    axes.plot(
+        forecast.best, forecast.depth, "--", color=ORANGE, lw=1.5, label="forecast"
+    )
+
+
+def draw(
+    path: Path, expected: Expected, log: Log, bins: Bins, forecast: Forecast
+) -> Path:
+    """Write the chart; return its path."""
+    figure = Figure(figsize=(7.5, 7.5))
+    axes = figure.subplots()
+    figure.suptitle(textwrap.fill(expected.title, 90), fontsize=9)
+    measured = expected.suction(bins.resistance, forecast.weight)
+    draw_expected(
+        axes, expected, max(float(measured.max()), float(forecast.high.max()))
+    )
+    draw_forecast(axes, forecast)
+    draw_log(axes, expected, log, bins, forecast.weight)
+    axes.legend(fontsize=8, framealpha=0.9, loc="best")
+    with_note(figure, textwrap.fill(f"Low and high: {expected.source}.", 110))
+    in_units(figure, expected.run.shown)
+    return disk.save(figure, path)

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A blank log sheet to print: the chart of what is expected and allowed, to plot the
+measured line on, a table to fill in by hand, and when to stop."""
+import textwrap
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from caisson import disk, evaluation
+from caisson.log import picture, words
+from caisson.log.expected import Expected, expected_of
+from caisson.results import Results
+from caisson.table import digits, write_csv
+
+PDF, TABLE = "log_sheet.pdf", "log_sheet.csv"
+A4 = (8.27, 11.69)  # inches
+ROWS = 32  # of a page
+BLANK = ("time", "suction", "flow", "tilt", "weight", "remarks")
+UNITS = {"suction": "kPa", "flow": "m³/h", "tilt": "°", "weight": "kN"}
+SIGNED = "Vessel: ____________   Date: ____________   Position: ____________   Signed:"
+
+
+def rows_of(expected: Expected) -> list[list[float]]:
+    """Return (depth, low, best, high, allowable) at each half meter and at the planned
+    end, in m and kPa, nan below the runs."""
+    depth = expected.depth
+    at = evaluation.depths_of(np.append(depth, max(expected.planned, depth[-1])))
+    lines = (expected.low, expected.best, expected.high)
+    columns = [expected.suction(line) for line in lines] + [expected.allowable]
+    found = [np.interp(at, depth, column, right=np.nan) for column in columns]
+    return [list(map(float, row)) for row in zip(at, *found)]
+
+
+def criteria_of(expected: Expected) -> list[str]:
+    """Return when to stop, and where the caisson should rest."""
+    limit = picture.governing_of(expected) or "not known"
+    lines = [
+        "Stop, hold the suction, and ask the designer where",
+        f"  - the suction reaches the allowable one ({limit}),",
+        "  - the line is above the high or below the low estimate over half a meter,",
+        "  - suction rises and the caisson rests, or flow rises and suction does not,",
+        "  - the tilt reaches ______ degrees.",
+    ]
+    if expected.high[0] < expected.weight < expected.low[-1]:
+        shown = expected.run.shown
+        least, most = (
+            float(np.interp(expected.weight, line, expected.depth))
+            for line in (expected.high, expected.low)
+        )
+        lines.append(
+            f"By its weight, {shown.force(expected.weight)} in water, it should rest"
+            f" between {shown.place(least, 1)} and {shown.place(most, 1)}."
+        )
+    return [*lines, *filter(None, [words.of_end(expected)])]
+
+
+def chart(expected: Expected) -> Figure:
+    """Return the page with the chart."""
+    figure = Figure(figsize=A4)
+    axes = figure.add_axes((0.1, 0.17, 0.84, 0.68))
+    picture.draw_expected(axes, expected)
+    axes.minorticks_on()
+    axes.grid(which="both", color="0.8", linewidth=0.4)
+    axes.legend(fontsize=8, loc="lower left")
+    title = "\n".join(textwrap.wrap(f"Log sheet: {expected.title}", 90))
+    figure.text(0.1, 0.94, title, fontsize=10)
+    figure.text(0.1, 0.91, SIGNED, fontsize=9)
+    note = [*criteria_of(expected), f"Low and high: {expected.source}."]
+    lines = [
+        line
+        for text in note
+        for line in textwrap.wrap(text, 118, drop_whitespace=False)
+    ]
+    figure.text(0.1, 0.14, "\n".join(lines), fontsize=8, va="top")
+    return figure
+
+
+def table(expected: Expected, rows: list[list[float]]) -> Figure:
+    """Return a page with rows of the table."""
+    figure = Figure(figsize=A4)
+    axes = figure.add_axes((0.06, 0.06, 0.88, 0.86))
+    axes.axis("off")
+    shown = expected.run.shown
+    heads = [shown.named(x) for x in ("depth\n(m)", "low\n(kPa)", "best\n(kPa)")]
+    heads += [shown.named(x) for x in ("high\n(kPa)", "allowable\n(kPa)")]
+    heads += [f"{name}\n({UNITS[name]})" if name in UNITS else name for name in BLANK]
+    factors = [shown.factor("m"), *[shown.factor("kPa")] * 4]
+    cells = [
+        [digits(f * x, 3) for f, x in zip(factors, row)] + [""] * len(BLANK)
+        for row in rows
+    ]
+    height = (len(rows) + 2) / (ROWS + 2)
+    found = axes.table(cells, colLabels=heads, bbox=(0, 1 - height, 1, height))
+    found.auto_set_font_size(False)
+    found.set_fontsize(8)
+    figure.text(0.06, 0.95, SIGNED, fontsize=9)
+    return figure
+
+
+def write(directory: Path) -> list[Path]:
+    """Write the blank sheet of a run into its directory; return the files. Raises
+    InputError."""
+    expected = expected_of(Results(directory))
+    rows = rows_of(expected)
+    pages = [chart(expected)]
+    pages += [table(expected, rows[i : i + ROWS]) for i in range(0, len(rows), ROWS)]
+    heads = ["depth_m", "low_kPa", "best_kPa", "high_kPa", "allowable_kPa"]
+    heads += ["time_s", "suction_kPa", "flow_m3/h", "tilt_deg", "weight_kN", "remarks"]
+    cells = [[digits(x, 4) for x in row] + [""] * len(BLANK) for row in rows]
+    write_csv(directory / TABLE, heads, cells)
+    return [disk.save_pages(pages, directory / PDF), directory / TABLE]

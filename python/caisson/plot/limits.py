@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The limits of the suction, each divided by a factor of its own: section Design of a
+scene, whose numbers the program hands on in run.json.
+
+Piping: the suction at which the exit gradient that was computed becomes critical, and
+that of Houlsby & Byrne (2005). The plug of clay: reverse bearing, and lift by the water
+below (design/plug_stability). Water boils below the lid. The pump. The plug meets the
+lid: no suction helps from that depth on. The wall buckles (design/shell).
+"""
+import math
+from math import inf
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson import curves
+from caisson.design import plug_stability, shell
+from caisson.evaluation import BOILING as BOILING_COLUMN
+from caisson.evaluation import DEPTH as DEPTH_COLUMN
+from caisson.evaluation import HEAVE as HEAVE_COLUMN
+from caisson.evaluation import at_depths, pump_limit
+from caisson.plot import suction_methods, theory
+from caisson.results import Results
+from caisson.table import write_columns
+
+LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
+COMPUTED, PIPING = "exit gradient computed", "piping, Houlsby & Byrne"
+REVERSE_BEARING, LIFT = plug_stability.REVERSE_BEARING, plug_stability.LIFT
+BOILING, PUMP = "water boils", "pump"
+LID, SHELL = "plug meets the lid", "wall buckles (DNV-RP-C202)"
+
+
+class Limit(NamedTuple):
+    """A limit: its kind, the entry of its factor in section Design with the default,
+    and its color in charts."""
+
+    kind: str
+    entry: str
+    factor: float
+    color: str
+    source: str = ""  # of a default other than 1
+
+
+LIMITS = {
+    COMPUTED: Limit("piping", "piping", 1.0, "#e6550d"),
+    PIPING: Limit("piping", "piping", 1.0, "#a63603"),
+    REVERSE_BEARING: Limit(
+        "plug of clay", "plug failure", 1.5, "#6a51a3", "custom, DNV-RP-E303"
+    ),
+    LIFT: Limit("plug of clay", "plug lift", 1.0, "#dd1c77"),
+    BOILING: Limit("water boils", "boiling", 1.0, "#cb181d"),
+    PUMP: Limit("pump", "pump", 1.0, "#00838f"),
+    LID: Limit(LID, "plug heave", 1.0, "#5d4037"),
+    SHELL: Limit(
+        "wall buckles", "shell buckling", 1.3, "#1a1aff", "on loads, DNV-OS-C101"
+    ),
+}
+ABSENT = {  # kind: why a run has no limit of it
+    "piping": "no flow through the plug",
+    "plug of clay": "none",
+    "water boils": "Water/Water depth not given",
+    "pump": "Water/Largest suction not given",
+    LID: "length of the skirt not known",
+    "wall buckles": "wall not known",
+}
+STEEL = {  # entries of section Design: default
+    "Steel yield strength": 355e6,
+    "Youngs modulus of steel": 210e9,
+    "Fixity depth over diameter": 0.5,
+    "Ring stiffener spacing": 0.0,
+}
+
+
+def number_of(run: Results, name: str, default: float) -> float:
+    """Return an entry of section Design; the default in files of earlier versions."""
+    summary = run.summary if run.scene else {}
+    path, known = f"Design/{name}", dict[str, Any]()
+    for part in ("defaults", "entries"):
+        known |= summary.get(part) or {}
+    try:
+        return float(known.get(path, default))
+    except ValueError:
+        return default
+
+
+def factors_of(run: Results) -> dict[str, float]:
+    """Return the factor on each limit."""
+    return {
+        name: number_of(run, f"Factor on {limit.entry}", limit.factor)
+        for name, limit in LIMITS.items()
+    }
+
+
+def with_factor(name: str, factor: float) -> str:
+    """Return the name of a limit with its factor, if that is not 1."""
+    return name if factor == 1 else f"{name}, factor {factor:g}"
+
+
+def absent_of(found: dict[str, np.ndarray]) -> list[str]:
+    """Return the kinds of limits of which a run has none, each with its reason."""
+    known = {LIMITS[name].kind for name in found}
+    return [f"{kind}: {why}" for kind, why in ABSENT.items() if kind not in known]
+
+
+def sources_of(factors: dict[str, float], found: dict[str, np.ndarray]) -> str:
+    """Return where the factors on limits come from, in a sentence."""
+    known = {LIMITS[n].entry: (factors[n], LIMITS[n]) for n in found if n in factors}
+    words = [
+        f"{entry} {factor:g} ({limit.source if factor == limit.factor else 'given'})"
+        for entry, (factor, limit) in known.items()
+        if factor != 1
+    ]
+    others = "1 elsewhere, as none is established"
+    return (
+        f"Factors: {', '.join([*words, others])}." if words else "No factor is in it."
+    )
+
+
+def wall_of(run: Results) -> shell.Wall | None:
+    """Return the steel wall of a caisson; None where the run does not know it."""
+    sizes = ("diameter_m", "wall_thickness_m", "skirt_length_m")
+    known = [run.scene.get(name) for name in sizes]
+    if None in known:
+        return None
+    steel = [number_of(run, name, default) for name, default in STEEL.items()]
+    steel[-1] = steel[-1] or inf
+    return shell.Wall(*(float(x or 0) for x in known), *steel)
+
+
+def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
+    at depths [n], nan before there is suction, and in clay, where nothing flows. The
+    flow is linear in the suction."""
+    history = run.history
+    if "critical_gradient" not in history:
+        return np.full(len(at), np.nan)
+    rows = curves.way_down(history["penetration_m"])[1:]
+    depth, suction = history["penetration_m"][rows], history["suction_Pa"][rows]
+    share = curves.gradient_share(history)[rows]
+    pulled = (suction > 0) & (share > LEAST_SHARE)
+    if not pulled.any():
+        return np.full(len(at), np.nan)
+    found = suction[pulled] / share[pulled] / 1e3
+    means = curves.smoothed_at(depth[pulled], found, at)
+    return np.where(at >= depth[pulled][0], means, np.nan)
+
+
+def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
+    """Return the suction (kPa) at which the wall buckles at depths [n] (m), by the
+    pressures on it that the run has at its frames."""
+    if (wall := wall_of(run)) is None:
+        return np.full(len(at), np.nan)
+    more = shell.beyond_suction(shell.pressures_of(run, wall), wall, at)
+    weight = float(run.scene.get("submerged_weight_N") or 0)
+    found = [
+        shell.limit_suction(wall, float(h), weight, float(p), factor)
+        for h, p in zip(at, more)
+    ]
+    return np.array(found) / 1e3
+
+
+def write_pressures(path: Path, run: Results) -> Path | None:
+    """Write the pressure from outside along the wall at the frames of a run with
+    suction, the load of a model of the shell; return its path, None without any."""
+    wall = wall_of(run)
+    found = shell.pressures_of(run, wall) if wall else {}
+    return write_columns(path, found) if found else None
+
+
+def rounded_down(depth: float) -> float:
+    """Return a depth (m) in whole decimeters, or with two digits below 1 m; a
+    twentieth less than one of them counts as that one."""
+    step = min(0.1, 10.0 ** (math.floor(math.log10(depth)) - 1)) if depth > 0 else 0.1
+    return round(step * math.floor(depth / step + 0.05), 9)
+
+
+def lid_depth(depth: np.ndarray, room: np.ndarray) -> float | None:
+    """Return the depth (m) at which the plug meets the lid, by the room below it at
+    depths [n]: as over the last meter, if it would go on so; None without any rise."""
+    if len(met := np.flatnonzero(room <= 0)):
+        i = max(int(met[0]), 1)
+        ends = slice(i - 1, i + 1)
+        return float(np.interp(0, -room[ends], depth[ends]))
+    last = depth >= depth[-1] - 1.0
+    if last.sum() < 2:
+        return None
+    slope = (room[last][0] - room[-1]) / (depth[-1] - depth[last][0])
+    return float(depth[-1] + room[-1] / max(slope, 0.1))
+
+
+def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the limits of the suction (kPa) at depths [n], nan or infinite where one
+    is none, each by its factor; only those that there are. That of the lid is 0 from
+    where the plug meets it."""
+    numbers, factors = at_depths(run, at), factors_of(run)
+    found: dict[str, np.ndarray] = {}
+    if "critical_gradient" in run.history:
+        found[COMPUTED] = critical_by_gradient(run, at)
+    answers = suction_methods.answers_of(theory.site_of(run), at)
+    if answers.suctions:
+        found[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
+    found |= {name: values / 1e3 for name, values in answers.plug.items()}
+    if BOILING_COLUMN in numbers:
+        found[BOILING] = numbers[BOILING_COLUMN] / 1e3
+    if (pump := pump_limit(run)) is not None:
+        found[PUMP] = np.full(len(at), pump)
+    found = {name: values / factors[name] for name, values in found.items()}
+    if (length := run.scene.get("skirt_length_m")) and HEAVE_COLUMN in numbers:
+        rows = at_depths(run)
+        depth, heave = rows[DEPTH_COLUMN], factors[LID] * rows[HEAVE_COLUMN]
+        lid = lid_depth(depth, float(length) - depth - heave)
+        met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
+        found[LID] = np.where(at < met - 1e-9, inf, 0.0)
+    found[SHELL] = shell_limit(run, at, factors[SHELL])
+    return {k: values for k, values in found.items() if not np.isnan(values).all()}
+
+
+def least_of(limits: dict[str, np.ndarray], n: int) -> np.ndarray:
+    """Return the least of limits [n]; infinite without any."""
+    found = np.array([np.full(n, inf), *limits.values()])
+    return np.asarray(np.where(np.isnan(found), inf, found).min(axis=0))
+
+
+def governing(limits: dict[str, np.ndarray], i: int) -> str:
+    """Return which of limits [n] is the least in a row; nothing without any."""
+    known = {name: v[i] for name, v in limits.items() if np.isfinite(v[i])}
+    return min(known, key=lambda name: known[name]) if known else ""

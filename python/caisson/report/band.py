@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What low and high resistance of the soil change on the page of the best estimate: the
+verdict, the penetration by weight, and the required suction at the quarters."""
+from typing import Any
+
+import numpy as np
+
+from caisson.band import BEST, HIGH, LOW, band_of
+from caisson.design.reasons import text_of
+from caisson.report import installation
+from caisson.report.installation import NOTHING, Installation, Rate
+from caisson.report.verdict import Verdict, verdict_of
+from caisson.results import Results
+from caisson.shown import Units
+
+REST = "Self-weight penetration"  # the card
+
+
+def ends_of(run: Results) -> dict[str, Results]:
+    """Return the runs of low and high resistance beside a run, as far as there are."""
+    return {e: member for e, member in band_of(run).items() if e != BEST}
+
+
+def outcome_of(member: Results, shown: Units, best: Verdict) -> str:
+    """Return what has become of a run, in words that follow "with low resistance"; a
+    reason only where it is not that of the best estimate."""
+    found = installation.installation_of(member, Rate())
+    if found is None or member.is_running:
+        return "not known: its run has not ended"
+    said = verdict_of(member)
+    if said.end is not None:
+        reason = f" ({said.reason})" if said.reason != best.reason else ""
+        return f"to {shown.place(said.end, 1)}{reason}"
+    place = shown.place(float(found.depth[-1]))
+    if not member.scene.get("submerged_weight_N"):
+        total = found.forces["total_force_N"]
+        total = found.with_water if len(found.with_water) else total
+        return f"{shown.force(float(total[-1]))} at {place}"
+    if not found.has_suction:
+        return f"to {place} by weight alone"
+    most = shown.words(float(found.required.max()), "kPa", ".3g")
+    return f"to {place}, suction up to {most}"
+
+
+def sentence_of(run: Results) -> str:
+    """Return what low and high resistance come to; nothing without a band."""
+    if not (best := verdict_of(run)).text:
+        return ""
+    words = [
+        f"with {estimate} resistance {outcome_of(member, run.shown, best)}"
+        for estimate, member in ends_of(run).items()
+    ]
+    text = "; ".join(words)
+    return f"{text[0].upper()}{text[1:]}." if text else ""
+
+
+def verdict_with(run: Results) -> Verdict:
+    """Return the verdict on a run with that on low and high resistance."""
+    best, ends = verdict_of(run), sentence_of(run)
+    if not ends:
+        return best
+    return best._replace(text=f"{best.text} {ends}")
+
+
+def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Return the cards of a run, where the penetration by weight has its range in place
+    of the weight, which the verdict names."""
+    ends = []
+    for estimate, member in ends_of(run).items():
+        found = installation.installation_of(member, Rate())
+        own = [] if found is None else installation.cards_of(member, found, Rate())
+        ends += [f"{estimate} resistance: {c[1]}" for c in own if c[0] == REST]
+    if not ends:
+        return cards
+    return [(*c[:2], "; ".join(ends)) if c[0] == REST else c for c in cards]
+
+
+def required_at(member: Results, depth: float, shown: Units) -> str:
+    """Return the required suction of a run at a depth (m), in words."""
+    found, end = installation.installation_of(member, Rate()), verdict_of(member).end
+    if found is None or depth > (end or float(found.depth[-1]) + 1e-3 * depth):
+        return "not reached" if end is None else "not feasible"
+    if depth <= member.history["penetration_m"][0]:
+        return "before the start"
+    known = installation.installation_of(member, Rate(), np.array([depth]))
+    if known is None or not len(known.required):
+        return ""
+    needs = float(known.required[0])
+    return "0" if needs <= NOTHING else text_of(shown.factor("kPa") * needs)
+
+
+def quarters_of(
+    run: Results, found: Installation, end: float | None, planned: float
+) -> dict[str, Any]:
+    """Return the table of the suction at quarters of the planned penetration (m), with
+    rows for low and high resistance. end: where suction ends (m), or None."""
+    table, ends = installation.quarters_of(run, found, end, planned), ends_of(run)
+    if not table or not ends:
+        return table
+    (name, *needs), *rows = table["rows"]
+    required = {BEST: needs} | {
+        estimate: [required_at(member, x, run.shown) for x in table["depths"]]
+        for estimate, member in ends.items()
+    }
+    sides = [e for e in (LOW, BEST, HIGH) if e in required]
+    names = " and ".join(member.directory.resolve().name for member in ends.values())
+    of_all = [[f"{name}, {estimate}", *required[estimate]] for estimate in sides]
+    return table | {"rows": of_all + rows, "ends": names}

@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What would help where suction does not install a caisson: amounts, by arithmetic.
+
+The required suction and the limits of the run go on by straight lines, as over the last
+meter or quarter of what is feasible; piping and the plug of clay have the numbers of
+their methods at the planned depth. Tip and walls keep their shares of the resistance.
+With another wall or diameter the stress on them stays, on their new areas, the methods
+and the check of the wall have the new sizes, and the weight changes by the steel of the
+skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
+"""
+from collections.abc import Iterable
+from math import inf, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson.design import shell
+from caisson.plot import limits, suction_methods, theory
+from caisson.report.installation import NOTHING, Installation
+from caisson.report.scene import end_of
+from caisson.results import Results
+
+OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
+LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
+STEEL_WEIGHT = (7850 - 1025) * 9.81e-3  # kN/m3, in water
+THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
+TRIED = 0.8, 1.2  # of the wall, and of the diameter
+STEPS = 0.001, 0.25  # m, of the wall and of the diameter
+DIGITS = 2
+NOT_KNOWN = "not known: another layer begins above the planned depth"
+
+
+class Sizes(NamedTuple):
+    """What a remedy changes: diameter and wall (m), and the weight in water (kN)."""
+
+    diameter: float
+    wall: float
+    weight: float
+
+    @property
+    def inner(self) -> float:
+        """The inner diameter (m)."""
+        return self.diameter - 2 * self.wall
+
+    @property
+    def area(self) -> float:
+        """The area that suction acts on (m2)."""
+        return pi / 4 * self.inner**2
+
+    @property
+    def tip(self) -> float:
+        """The area of the tip (m2)."""
+        return pi * (self.diameter - self.wall) * self.wall
+
+
+class Planned:
+    """The caisson at a depth (m) that it does not reach; forces in kN, suctions in
+    kPa."""
+
+    def __init__(self, run: Results, found: Installation, depth: float) -> None:
+        """found: what is feasible, whose trend goes on to the depth."""
+        self.run, self.found, self.depth = run, found, depth
+        scene = run.scene
+        weight = float(scene.get("submerged_weight_N") or 0) / 1e3
+        self.sizes = Sizes(
+            float(scene["diameter_m"]), float(scene["wall_thickness_m"]), weight
+        )
+        self.required = self.line(found.required)
+        parts = [float(values[-1]) for values in list(found.forces.values())[:3]]
+        total = self.required * self.sizes.area + weight
+        self.forces = [total * part / sum(parts) for part in parts]
+        self.piping = self.by_methods(self.sizes)[0]
+        wall = limits.wall_of(run)
+        self.pressures = shell.pressures_of(run, wall) if wall else {}
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The rows of the installation whose trend goes on."""
+        depth = self.found.depth
+        way = max(LEAST_WAY, OF_WAY * (depth[-1] - depth[0]))
+        rows = depth >= depth[-1] - way
+        rows |= np.arange(len(depth)) >= len(depth) - LEAST_ROWS
+        return np.asarray(rows & (self.found.required > NOTHING))
+
+    def line(self, values: np.ndarray) -> float:
+        """Return a column of the installation at the depth; nan without a trend."""
+        rows = self.rows & np.isfinite(values)
+        if rows.sum() < 2:
+            return float("nan")
+        line = np.polyfit(self.found.depth[rows], values[rows], 1)
+        return float(np.polyval(line, self.depth))
+
+    def by_methods(self, sizes: Sizes) -> tuple[float, dict[str, float]]:
+        """Return the suction of piping, nan without one, and those of the plug."""
+        new = {"diameter_m": sizes.diameter, "wall_thickness_m": sizes.wall}
+        site = theory.site_of(self.run)
+        site = site._replace(scene={**site.scene, **new})
+        known = suction_methods.answers_of(site, np.array([self.depth]))
+        piping = known.suctions.get(suction_methods.PIPING, np.array([np.nan]))
+        plug = {name: float(values[0]) / 1e3 for name, values in known.plug.items()}
+        return float(piping[0]) / 1e3, plug
+
+    def needs(self, sizes: Sizes) -> float:
+        """Return the required suction, at least 0."""
+        old, (tip, inner, outer) = self.sizes, self.forces
+        more = tip * (sizes.tip / old.tip - 1)
+        more += inner * (sizes.inner / old.inner - 1)
+        more += outer * (sizes.diameter / old.diameter - 1)
+        force = self.required * old.area + old.weight + more
+        return max((force - sizes.weight) / sizes.area, 0.0)
+
+    def allows(self, sizes: Sizes) -> dict[str, float]:
+        """Return the limits of the suction, by their factors."""
+        piping, plug = self.by_methods(sizes)
+        factors, same = self.found.factors, self.found.limits
+        known = {limits.PIPING: piping, **plug}
+        found = {name: value / factors[name] for name, value in known.items()}
+        for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
+            if name in same:
+                found[name] = self.line(same[name])
+        if limits.COMPUTED in found and np.isfinite(self.piping):
+            found[limits.COMPUTED] *= piping / self.piping
+        if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
+            wall = wall._replace(diameter=sizes.diameter, thickness=sizes.wall)
+            more = shell.beyond_suction(self.pressures, wall, [self.depth])[0]
+            loads = 1e3 * sizes.weight, float(more), factors[limits.SHELL]
+            found[limits.SHELL] = shell.limit_suction(wall, self.depth, *loads) / 1e3
+        return {name: value for name, value in found.items() if np.isfinite(value)}
+
+    def suffices(self, sizes: Sizes) -> bool:
+        """Return whether the required suction is below all limits."""
+        return self.needs(sizes) < min(self.allows(sizes).values(), default=inf)
+
+    def steel(self, sizes: Sizes) -> float:
+        """Return the weight (kN) with another skirt of steel."""
+        length = float(self.run.scene.get("skirt_length_m") or 0)
+        more = STEEL_WEIGHT * length * (sizes.tip - self.sizes.tip)
+        return self.sizes.weight + more
+
+
+def is_enough(planned: Planned, name: str, size: float) -> bool:
+    """Return whether the caisson goes in with another diameter or wall (m)."""
+    sizes = planned.sizes._replace(**{name: size})
+    return planned.suffices(sizes._replace(weight=planned.steel(sizes)))
+
+
+def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None:
+    """Return the first diameter or wall (m) that suffices; None without one."""
+    return next((size for size in found if is_enough(planned, name, size)), None)
+
+
+def reach(planned: Planned, name: str, size: float) -> float:
+    """Return the depth (m) to which the caisson goes in with another diameter or
+    wall (m)."""
+    run, found = planned.run, planned.found
+    low, high = float(found.depth[-1]), planned.depth
+    for _ in range(12):
+        middle = (low + high) / 2
+        enough = is_enough(Planned(run, found, middle), name, size)
+        low, high = (middle, high) if enough else (low, middle)
+    return low
+
+
+def weight_of(planned: Planned) -> float | None:
+    """Return the weight (kN) that suffices; None where none does, as the wall buckles
+    under it."""
+    sizes = planned.sizes
+    low, high = sizes.weight, sizes.weight + planned.required * sizes.area
+    if not planned.suffices(sizes._replace(weight=high)):
+        return None
+    for _ in range(30):
+        middle = (low + high) / 2
+        enough = planned.suffices(sizes._replace(weight=middle))
+        low, high = (low, middle) if enough else (middle, high)
+    return high
+
+
+def wall_of(planned: Planned) -> float | None:
+    """Return the wall (m) nearest to the present one that suffices, in mm."""
+    wall, step = planned.sizes.wall, STEPS[0]
+    n = int(np.ceil((THICKEST - 1) * wall / step))
+    changes = (step * i * sign for i in range(1, n + 1) for sign in (-1, 1))
+    walls = (wall + x for x in changes if wall + x >= THINNEST * wall)
+    return nearest(planned, "wall", walls)
+
+
+def diameter_of(planned: Planned) -> float | None:
+    """Return the diameter (m) nearest to the present one that suffices."""
+    outer, step = planned.sizes.diameter, STEPS[1]
+    n = int((WIDEST - 1) * outer / step)
+    wider = (outer + step * i for i in range(1, n + 1))
+    return nearest(planned, "diameter", wider)
+
+
+def short(value: float) -> float:
+    """Return a number with few digits."""
+    return float(f"{value:.{DIGITS}g}")
+
+
+def pump_row(planned: Planned) -> str:
+    """Return what a pump does."""
+    shown, others = planned.found.shown, planned.allows(planned.sizes)
+    pump = others.pop(limits.PUMP, inf)
+    name = min(others, key=lambda x: others[x], default="")
+    if planned.required < others.get(name, inf):
+        needed = f"{shown.words(short(planned.required), 'kPa', 'g')}"
+        instead = shown.words(pump, "kPa", ".3g")
+        return f"a pump for {needed} instead of {instead}" if pump < inf else ""
+    limit = shown.words(others[name], "kPa", ".3g")
+    return f"no pump alone: {planned.found.named(name)} allows {limit}"
+
+
+def size_row(planned: Planned, name: str, found: float | None, why: str) -> list[str]:
+    """Return the row of a diameter or a wall (m); where none suffices, why, and how
+    deep one of TRIED goes."""
+    old = planned.sizes._asdict()[name]
+    factor, unit = (1e3, "mm") if name == "wall" else (1.0, "m")
+    if found is not None:
+        words = f"{factor * found:.4g} {unit} instead of {factor * old:g} {unit}"
+        return [name, words]
+    share = TRIED[name == "diameter"]
+    tried = float(f"{share * factor * old:.3g}")
+    depth = reach(planned, name, tried / factor)
+    gained = depth > planned.found.depth[-1] + 0.05
+    place = planned.found.shown.place(depth, 1)
+    text = f"{tried:g} {unit} would reach {place}" if gained else ""
+    return [name, "; ".join(filter(None, [why, text]))]
+
+
+def cycles_row(depth: float) -> str:
+    """Return the runs that tell what cycles of force do; depth: where suction ends."""
+    return (
+        f"no arithmetic: end a run at {0.98 * depth:.3g} m, and go on from it"
+        " (Installation/Directory) with Motion = dropped, Suction control = table,"
+        " Inertia tolerance = none and a Force table"
+    )
+
+
+def sizes_rows(planned: Planned) -> list[list[str]]:
+    """Return the rows of weight, wall, diameter and pump."""
+    shown, sizes = planned.found.shown, planned.sizes
+    found = weight_of(planned)
+    weight = "none: the wall buckles under it"
+    if found is not None:
+        now = shown.force(sizes.weight)
+        weight = f"about {shown.force(short(found))} in all instead of {now}"
+    ends = [f"{1e3 * share * sizes.wall:.0f}" for share in (THINNEST, THICKEST)]
+    none = f"none up to {WIDEST * sizes.diameter:g} m suffices"
+    rows = [
+        ["weight in water", weight],
+        size_row(
+            planned,
+            "wall",
+            wall_of(planned),
+            f"none from {' to '.join(ends)} mm suffices",
+        ),
+        size_row(planned, "diameter", diameter_of(planned), none),
+    ]
+    return rows + ([["pump", words]] if (words := pump_row(planned)) else [])
+
+
+def changes_between(run: Results, top: float, bottom: float) -> bool:
+    """Return whether another layer begins between two depths (m)."""
+    tops = [layer.get("top_depth_m", 0) for layer in run.scene.get("layers", [])]
+    return any(top < depth < bottom for depth in tops)
+
+
+def skirt_row(planned: Planned) -> list[list[str]]:
+    """Return the skirt that leaves room for the heave of the plug, if it is longer."""
+    found, length = planned.found, planned.run.scene.get("skirt_length_m")
+    if not length or not len(found.room):
+        return []
+    rise = found.factors.get(limits.LID, 1.0) * planned.line(found.heave)
+    needed = planned.depth + max(rise, 0.0)
+    if not needed > float(length):
+        return []
+    new, old = (found.shown.place(x) for x in (needed, float(length)))
+    return [["skirt", f"longer than {new} instead of {old}: the plug meets the lid"]]
+
+
+def planned_of(run: Results, found: Installation, target: float) -> Planned | str:
+    """Return the caisson at a depth (m), or why nothing is known of it."""
+    scene = run.scene
+    sizes = scene.get("diameter_m"), scene.get("wall_thickness_m")
+    if None in sizes or not scene.get("submerged_weight_N"):
+        return "sizes and weight are not known"
+    planned = Planned(run, found, target)
+    if not np.isfinite(planned.required):
+        return "too few numbers above"
+    if changes_between(run, float(found.depth[planned.rows][0]), target):
+        return NOT_KNOWN
+    return planned
+
+
+def sentence_of(run: Results, found: Installation, target: float) -> str:
+    """Return which weight, or pump, would be needed at a depth (m)."""
+    planned, place = planned_of(run, found, target), found.shown.place(target)
+    if planned == NOT_KNOWN:
+        return f" More weight helps; how much in the soil down to {place} is not known."
+    if isinstance(planned, str) or (weight := weight_of(planned)) is None:
+        return ""
+    words = f"{found.shown.force(short(weight))} of weight in all"
+    if (pump := pump_row(planned)).startswith("a pump"):
+        words += f", or {pump.partition(' instead')[0]},"
+    return f" About {words} would be needed at {place}."
+
+
+def table_of(run: Results, found: Installation, end: float | None) -> dict[str, Any]:
+    """Return heads and rows of remedies for a caisson that goes in to an end (m) only;
+    found: down to there. Empty where it goes in, or the planned depth is not known."""
+    target = end_of(run)
+    if end is None or target is None or target <= end:
+        return {}
+    shown = found.shown
+    place = shown.place(end, 1)
+    stop = f"at {place}"
+    if len(found.room):
+        stop += f": a skirt of {shown.place(end + float(found.heave[-1]) + 5e-2, 1)}"
+    planned = planned_of(run, found, target)
+    if isinstance(planned, str):
+        rows = [["weight, wall, diameter, pump", planned]]
+    else:
+        rows = sizes_rows(planned) + skirt_row(planned)
+    rows += [["stop earlier", stop], ["cycles of force", cycles_row(end)]]
+    heads = ["one of these", f"to reach {shown.place(target)}, by arithmetic"]
+    return {"heads": heads, "rows": rows}

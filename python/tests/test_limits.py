@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The limits of the suction, each of which governs once in a made-up run, and their
+factors."""
+import html
+import json
+import re
+import unittest
+from typing import Any
+
+import numpy as np
+from synthetic import write_columns
+from test_report import SCENE, SUMMARY, WithPage, leave_run
+
+import caisson.report as report
+from caisson import plot
+from caisson.plot import limits
+from caisson.report import installation, verdict
+from caisson.results import Results
+
+SAND = SCENE["layers"][0]
+CLAY = {**SAND, "friction_angle_deg": 0, "cohesion_Pa": 5e3, "wall_adhesion_Pa": 1e3}
+SKIRT = {**SCENE, "skirt_length_m": 7.0}
+
+
+class Governing(WithPage):
+    """A required suction of 10 kPa for each meter below 1.5 m, to 4.5 m: the heave is
+    5 % of the way, and the exit gradient 0.1 of 0.9 for each meter."""
+
+    def run_of(
+        self,
+        scene: dict[str, Any] = {},
+        entries: dict[str, str] = {},
+        columns: dict[str, float] = {},
+    ) -> Results:
+        """Leave a run whose scene, entries and columns (by factors) are changed."""
+        summary = {**SUMMARY, "scene": {**SKIRT, **scene}}
+        leave_run(self.path, {**summary, "entries": entries})
+        history = dict(Results(self.path).history)
+        history["cavitation_suction_Pa"] = 400e3 * np.ones(len(history["time_s"]))
+        for name, factor in columns.items():
+            values = history.pop(name)
+            if factor:
+                history[name] = factor * values
+        write_columns(self.path / "history.csv", history)
+        return Results(self.path)
+
+    def installation(self, run: Results) -> installation.Installation:
+        found = installation.installation_of(run, installation.Rate())
+        assert found is not None
+        return found
+
+    def check(self, run: Results, name: str, depth: float, words: str) -> None:
+        """The suction ends at a depth (m) by a limit, in table, page and run.json."""
+        said, depth = verdict.verdict_of(run), limits.rounded_down(depth)
+        self.assertEqual(said.reason, words)
+        self.assertAlmostEqual(said.end or 0, depth, places=6)
+        page = report.write(self.path).read_text(encoding="utf-8")
+        text = html.unescape(re.sub("<[^>]*>", " ", page.split("<script")[0]))
+        self.assertRegex(text, rf"governed by[^0-9]*{re.escape(name)}")
+        verdict.keep(run)
+        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual(known["limits"][-1]["governed_by"], name)
+        self.assertAlmostEqual(known["limits"][-1]["penetration_m"], depth, places=6)
+        colors = [limit.color for limit in limits.LIMITS.values()]
+        self.assertEqual(len(set(colors)), len(colors))
+
+    def test_exit_gradient(self) -> None:
+        """0.24 for each meter is 0.9 at 3.75 m."""
+        columns = {f"exit_gradient_{place}": 2.4 for place in ("wall", "axis")}
+        self.check(self.run_of(columns=columns), limits.COMPUTED, 3.75, "piping")
+
+    def test_houlsby_byrne(self) -> None:
+        """Soil of 4 kN/m3 pipes early; the computed gradient does not."""
+        layer = {**SAND, "submerged_unit_weight_N_m3": 4000.0}
+        run = self.run_of({"layers": [layer]})
+        found = self.installation(run)
+        limit, required = found.limits[limits.PIPING], found.required
+        meets = float(np.interp(0, required - limit, found.depth))
+        words = "piping by Houlsby & Byrne"
+        self.check(run, limits.PIPING, meets, words)
+
+    def clay(self, layers: list[dict[str, Any]], factors: dict[str, str]) -> Results:
+        nothing = "exit_gradient_wall", "exit_gradient_axis", "critical_gradient"
+        gone = dict.fromkeys(nothing, 0.0)
+        return self.run_of({"layers": layers}, factors, gone)
+
+    def test_reverse_bearing(self) -> None:
+        """At the depth h the plug bears 30 (1 + 0.02 h) + 4 h / 9.92 kPa over 1.5: 20 +
+        0.669 h, which is 10 (h - 1.5) at h = 3.75 m; and 2 as the factor leaves 15 +
+        0.502 h, at 3.16 m."""
+        for factors, factor, depth in (
+            ({}, "1.5", 3.751),
+            ({"Design/Factor on plug failure": "2"}, "2", 3.158),
+        ):
+            run = self.clay([CLAY], factors)
+            words = f"reverse bearing of the plug, factor {factor}"
+            self.check(run, limits.REVERSE_BEARING, depth, words)
+
+    def test_lift(self) -> None:
+        """3 m of clay of 2 kN/m3 are lifted off the sand by 6 kPa, the adhesion of 4 *
+        1 kPa / 9.92 m for each meter above 3 m, and the strength of 5 kPa below the
+        tip: 6 + 0.403 h + 2.016 (3 - h), which is 10 (h - 1.5) at 2.33 m."""
+        light = {**CLAY, "submerged_unit_weight_N_m3": 2000.0}
+        run = self.clay([light, {**SAND, "top_depth_m": 3.0}], {})
+        self.check(run, limits.LIFT, 27.048 / 11.613, limits.LIFT)
+
+    def test_boiling(self) -> None:
+        """12 kPa at 2.7 m; 8 kPa by a factor of 1.5, at 2.3 m."""
+        few = {"cavitation_suction_Pa": 0.03}
+        words = "boiling below the lid"
+        self.check(self.run_of(columns=few), limits.BOILING, 2.7, words)
+        run = self.run_of(entries={"Design/Factor on boiling": "1.5"}, columns=few)
+        self.check(run, limits.BOILING, 2.3, f"{words}, factor 1.5")
+
+    def test_pump(self) -> None:
+        run = self.run_of(entries={"Water/Largest suction": "11e3"})
+        self.check(run, limits.PUMP, 2.6, "pump")
+
+    def test_lid(self) -> None:
+        """Of 4 m of skirt, 5 % of heave leave 4 / 1.05 m; three times as much by a
+        factor leaves 4 / 1.15 m."""
+        short = {"skirt_length_m": 4.0}
+        self.check(self.run_of(short), limits.LID, 4 / 1.05, "plug meets the lid")
+        run = self.run_of(short, {"Design/Factor on plug heave": "3"})
+        words = "plug meets the lid, factor 3"
+        self.check(run, limits.LID, 4 / 1.15, words)
+
+    def test_shell(self) -> None:
+        """10 mm for 10 m of diameter buckle; a lower factor and rings help."""
+        thin = {"wall_thickness_m": 0.01}
+        run = self.run_of(thin)
+        found = self.installation(run)
+        limit, required = found.limits[limits.SHELL], found.required
+        meets = float(np.interp(0, required - limit, found.depth))
+        self.assertLess(meets, 3.0)
+        words = "wall buckles (DNV-RP-C202), factor 1.3"
+        self.check(run, limits.SHELL, meets, words)
+        for entry in ("Factor on shell buckling", "Ring stiffener spacing"):
+            run = self.run_of(thin, {f"Design/{entry}": "1"})
+            more = self.installation(run).limits[limits.SHELL]
+            self.assertTrue((more > 1.1 * limit).all(), entry)
+
+    def test_all_kinds_have_a_row(self) -> None:
+        """Those of which a run has none say why."""
+        run = self.run_of()
+        rows = installation.quarters_of(run, self.installation(run), None, 4.5)["rows"]
+        names = [row[0] for row in rows]
+        for kind in ("pump: Water/Largest suction not given", "plug of clay: none"):
+            self.assertIn(kind, names)
+        for name in (limits.COMPUTED, limits.PIPING, limits.BOILING):
+            self.assertIn(name, names)
+        self.assertIn("plug meets the lid: at about 6.7 m", names)
+
+    def test_load_of_a_shell(self) -> None:
+        """wall_pressure.csv has 25 kPa down to the mudline at 4 m, and 20 below."""
+        run = self.run_of()
+        z = np.linspace(0.1, 4.0, 9)
+        walls = {"time_s": 4.0 + 0 * z, "penetration_m": 4.0 + 0 * z, "depth_m": z}
+        walls |= {f"{side}_area_m2": 1 + 0 * z for side in ("inner", "outer")}
+        walls |= {
+            "inner_normal_stress_Pa": 5e3 + 0 * z,
+            "outer_normal_stress_Pa": 0 * z,
+        }
+        walls |= {"inner_pore_pressure_Pa": -25e3 + 0 * z}
+        walls |= {f"{side}_shear_stress_Pa": 0 * z for side in ("inner", "outer")}
+        walls["horizontal_stress_at_rest_Pa"] = 0 * z
+        write_columns(self.path / "wall.csv", walls)
+        plot.draw(self.path)
+        found = Results(self.path).table("wall_pressure.csv", "below_lid_m")
+        self.assertEqual(found["below_lid_m"][:2].tolist(), [0, 3])
+        net = found["net_external_pressure_Pa"]
+        self.assertTrue(np.allclose(net[:2], 25e3) and np.allclose(net[2:], 20e3))
+        self.assertTrue(run.history)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The log of a vessel beside made-up runs: what it says, and how often it is right."""
+import csv
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from synthetic import write_run
+
+from caisson import log as log_command
+from caisson.disk import InputError
+from caisson.log import expected, forecast, measured, sheet, words
+from caisson.results import Results
+
+WEIGHT, DIAMETER, WALL, END = 1.5e6, 8.0, 0.03, 9.0
+AREA = np.pi / 4 * (DIAMETER - 2 * WALL) ** 2
+DEPTH = np.linspace(0.5, END, 400)
+TIP, FRICTION = 2.5e5 * DEPTH, 0.9e5 * DEPTH**2
+BEST = TIP + FRICTION  # N
+HALF = 0.25  # of the band, as a logarithm
+BOILING = 2.5e5
+SCENE: dict[str, Any] = {
+    "diameter_m": DIAMETER,
+    "wall_thickness_m": WALL,
+    "skirt_length_m": END + 1,
+    "layers": [],
+    "submerged_weight_N": WEIGHT,
+}
+
+
+def history_of(force: np.ndarray, boiling: float = BOILING) -> dict[str, np.ndarray]:
+    """Return history.csv of a resistance (N) at DEPTH."""
+    required = (force - WEIGHT) / AREA
+    return {
+        "time_s": DEPTH,
+        "penetration_m": DEPTH,
+        "tip_force_N": 0.3 * force,
+        "inner_friction_N": 0.3 * force,
+        "outer_friction_N": 0.4 * force,
+        "total_force_N": force,
+        "suction_Pa": np.maximum(required, 0),
+        "required_suction_Pa": required,
+        "cavitation_suction_Pa": np.full(len(DEPTH), boiling),
+        "plug_heave_m": 0.02 * DEPTH,
+    }
+
+
+class Vessel(unittest.TestCase):
+    """A run with its band, and logs of hidden soils."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+        self.own = self.path / "own"
+        self.file = self.path / "measured.csv"
+
+    def write_runs(self, half: float = HALF, boiling: float = BOILING) -> None:
+        """Write the best estimate and, with a half width, its band."""
+        names = {"": 0.0, "_low": -half, "_high": half} if half else {"": 0.0}
+        for name, change in names.items():
+            entries = {"Time/End penetration": f"{END:g}"}
+            summary = {"title": "made up", "scene": SCENE, "entries": entries}
+            history = history_of(BEST * np.exp(change), boiling)
+            write_run(self.path / f"own{name}", history, summary)
+
+    def write_log(self, force: np.ndarray, last: float, seed: int = 1) -> None:
+        """Write the log of a resistance (N) at DEPTH down to a depth: noise, a gap, a
+        stop, a spike, and rows that are repeated and out of order."""
+        rng = np.random.default_rng(seed)
+        depth = np.arange(0.6, last, 0.01)
+        stop = 0.6 * last
+        depth = depth[np.abs(depth - 0.8 * last) > 0.15]  # the gap
+        rest = np.full(300, stop)
+        depth = np.sort(np.concatenate([depth, rest]))
+        suction = np.maximum(np.interp(depth, DEPTH, force) - WEIGHT, 0) / AREA / 1e3
+        suction *= 1 + rng.uniform(0.03, 0.05) * rng.normal(size=len(depth))
+        suction[depth == stop] *= 0.4
+        suction[len(depth) // 2] *= 8
+        noisy = depth + 0.01 * rng.normal(size=len(depth))
+        rows = [
+            f"{10 * i},{d:.4f},{s:.4f},20,{0.1 * d:.3f}"
+            for i, (d, s) in enumerate(zip(noisy, suction))
+        ]
+        rows[50], rows[70] = rows[70], rows[50]
+        rows += rows[100:120]
+        head = "time_s,depth_m,suction_kPa,flow_m3/h,tilt_deg"
+        self.file.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+
+    def answer(self) -> tuple[Any, forecast.Bins, forecast.Forecast]:
+        """Return what runs and log come to."""
+        found = expected.expected_of(Results(self.own))
+        log = measured.read(self.file)
+        bins = measured.bins_of(self.file, log, found)
+        weight = measured.weight_of(log, found)
+        return found, bins, forecast.forecast_of(found, bins, weight)
+
+    def test_soil_between_the_runs(self) -> None:
+        """The factor is found in spite of noise, gap, stop and spike."""
+        self.write_runs()
+        for factor in (0.85, 1.0, 1.15):
+            self.write_log(factor * BEST, 6.0)
+            found, bins, ahead = self.answer()
+            fit = forecast.fit_of(found, bins)
+            self.assertAlmostEqual(fit.factor[0], factor, delta=0.02)
+            self.assertLess(fit.factor[1], factor)
+            self.assertGreater(fit.factor[2], factor)
+            self.assertAlmostEqual(fit.share[0], np.log(factor) / HALF, delta=0.1)
+            self.assertIn("within the band, down to 5.9", words.of_band(found, bins))
+            true = (factor * BEST[-1] - WEIGHT) / AREA / 1e3
+            self.assertLess(ahead.low[-1], true)
+            self.assertGreater(ahead.high[-1], true)
+
+    def test_soil_outside(self) -> None:
+        """It is said where the log leaves the band, also in the soil of a layer."""
+        self.write_runs()
+        layered = BEST * np.where(DEPTH > 4, 1.6, 1.0)
+        self.write_log(layered, 6.0)
+        found, bins, ahead = self.answer()
+        self.assertRegex(
+            words.of_band(found, bins), r"from 4(\.[01])? m on above the high estimate"
+        )
+        self.write_log(BEST / 1.6, 6.0)
+        found, bins, ahead = self.answer()
+        self.assertIn("below the low estimate", words.of_band(found, bins))
+        true = (BEST[-1] / 1.6 - WEIGHT) / AREA / 1e3
+        self.assertLess(ahead.low[-1], true)
+        self.assertGreater(ahead.high[-1], true)
+
+    def test_refusal(self) -> None:
+        """Where the allowable suction is reached, as a range of depths."""
+        boiling = (BEST[300] - WEIGHT) / AREA
+        self.write_runs(boiling=boiling)
+        self.write_log(BEST, 5.0)
+        found, _, ahead = self.answer()
+        first, middle, last = words.outcome_of(found, ahead)
+        assert first and middle and last
+        self.assertLess(first, DEPTH[300])
+        self.assertGreater(last, DEPTH[300])
+        self.assertAlmostEqual(middle, DEPTH[300], delta=0.15)
+        said = words.of_forecast(found, ahead)
+        self.assertRegex(said, r"refusal between 6.* and 8.* m, most likely at 6\.9 m")
+
+    def test_nine_of_ten(self) -> None:
+        """The band of the forecast holds, over all of its way, in nine of ten soils of
+        layers, waves, trends and jumps, of which the band of the runs is nine in ten.
+        """
+        self.write_runs()
+        inside = [self.stays_inside(seed) for seed in range(50)]
+        for first in range(0, 50, 10):
+            self.assertGreaterEqual(sum(inside[first : first + 10]), 9, inside)
+
+    def stays_inside(self, seed: int) -> bool:
+        """Return whether a hidden soil stays within the band of its forecast."""
+        rng = np.random.default_rng(seed)
+        force = hidden(rng, seed % 5)
+        self.write_log(force, rng.uniform(4.5, 7.5), seed)
+        _, _, ahead = self.answer()
+        true = np.maximum(np.interp(ahead.depth, DEPTH, force) - WEIGHT, 0) / AREA / 1e3
+        return bool(np.all((true >= ahead.low) & (true <= ahead.high)))
+
+    def test_without_a_band(self) -> None:
+        self.write_runs(half=0.0)
+        self.write_log(1.1 * BEST, 6.0)
+        found, _, ahead = self.answer()
+        self.assertIn("20 % to either side (ASSUMED)", found.source)
+        self.assertGreater(ahead.high[-1], ahead.best[-1])
+
+    def test_command(self) -> None:
+        """Page, picture and table; and the blank sheet."""
+        self.write_runs()
+        self.write_log(1.1 * BEST, 6.0)
+        files, said = log_command.write(self.own, self.file)
+        self.assertTrue(all(file.stat().st_size > 500 for file in files))
+        page = (self.own / "vessel.html").read_text(encoding="utf-8")
+        for text in (*said, "Largest flow 20 m³/h", "20 repeated rows"):
+            self.assertTrue(text in page, text)
+        with (self.own / "vessel.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        last = rows[-1]
+        self.assertEqual(last["depth_m"], "9")
+        self.assertEqual(last["measured_kPa"], "")
+        self.assertLess(float(last["forecast_low_kPa"]), float(last["forecast_kPa"]))
+        for path in sheet.write(self.own):
+            self.assertGreater(path.stat().st_size, 500)
+        with (self.own / "log_sheet.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["depth_m"]) for row in rows[:2]], [1.0, 1.5])
+        self.assertEqual({row["suction_kPa"] for row in rows}, {""})
+        criteria = " ".join(sheet.criteria_of(expected.expected_of(Results(self.own))))
+        self.assertRegex(
+            criteria, r"allowable one \(water boils\).*rest between 2\.. m"
+        )
+
+
+def hidden(rng: np.random.Generator, kind: int) -> np.ndarray:
+    """Return a resistance (N) at DEPTH of a soil whose total scatters as the band of
+    the runs says: in layers of other strength, with waves, with a trend, with jumps at
+    layers, or far outside."""
+    sd = HALF / 1.645
+    site = 0.7 * sd * rng.normal()
+    layer = np.searchsorted(np.cumsum(rng.uniform(0.8, 3.0, 12)), DEPTH)
+    of_layer = rng.normal(size=13)[layer]
+    wave = np.sin(2 * np.pi * (DEPTH / rng.uniform(2, 6) + rng.uniform()))
+    if kind == 0:
+        strength, step = np.exp(site + 0.85 * sd * of_layer), DEPTH[1] - DEPTH[0]
+        friction = np.cumsum(np.gradient(FRICTION, step) * strength) * step
+        return np.asarray(TIP * strength + friction)
+    change = {
+        1: site + sd * wave,
+        2: site + sd * rng.normal() * (DEPTH - 4.5) / 6,
+        3: site + 0.7 * sd * of_layer,
+        4: 2.2 * sd * rng.choice([-1, 1]) + 0.4 * sd * wave,
+    }
+    return np.asarray(BEST * np.exp(change[kind]))
+
+
+class Reading(unittest.TestCase):
+    """Files of logs."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.file = Path(temporary.name) / "log.csv"
+
+    def read(self, *lines: str) -> measured.Log:
+        """Return the log of some lines."""
+        self.file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return measured.read(self.file)
+
+    def test_units(self) -> None:
+        log = self.read(
+            "Date;Time;Penetration (cm);Differential pressure [mbar];Flow (l/s);Heel",
+            "2026-05-01;10:00:00;120,5;15,0;2;0,1",
+            "2026-05-01;10:00:30;121,5;16,0;2;0,1",
+        )
+        np.testing.assert_allclose(log.depth, [1.205, 1.215])
+        np.testing.assert_allclose(log.suction, [1.5, 1.6])
+        np.testing.assert_allclose(log.flow, [7.2, 7.2])
+        self.assertTrue(np.isnan(log.resistance).all())
+
+    def test_order_and_remarks(self) -> None:
+        log = self.read(
+            "time_min,depth_m,suction_kPa,weight_MN",
+            *("2,1.2,12,1", "1,1.1,11,1", "1,1.1,11,1", "3,,13,1", "4,1.4,14,1.1"),
+        )
+        np.testing.assert_allclose(log.time, [60, 120, 240])
+        np.testing.assert_allclose(log.weight, [1000, 1000, 1100])
+        self.assertIn("1 rows without depth and suction", log.remarks[0])
+        self.assertIn("1 repeated rows", log.remarks[1])
+        self.assertIn("were sorted", log.remarks[2])
+
+    def test_refused(self) -> None:
+        for lines, text in (
+            (("depth_m,qc_MPa", "1,2"), "no row names a column of depth and one of"),
+            (("depth_m,suction", "1,2"), "'suction' has no unit that is known"),
+            (("depth_m,suction_kPa,dp_kPa", "1,2,3"), "one column of suction"),
+            (("depth_m,suction_kPa", "1,-5", "2,-6"), "suction is negative"),
+            (("depth_m,suction_kPa", "1,x", "2,"), "0 rows have a number"),
+        ):
+            with self.assertRaisesRegex(InputError, text):
+                self.read(*lines)
+
+
+if __name__ == "__main__":
+    unittest.main()

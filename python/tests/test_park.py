@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The overview of a park, and runs on the workers of Dask."""
+import contextlib
+import csv
+import io
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import numpy as np
+from synthetic import write_run
+from test_log import END, SCENE, WEIGHT, history_of, AREA, BEST, DEPTH
+
+from caisson import dask_runs, needed
+from caisson.commands import park_rows, park_study
+from caisson.runner import Run
+from caisson.study import Options, Study, StudyError, StudyRun
+
+FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
+
+
+class WithRuns(unittest.TestCase):
+    """Positions in a folder."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+        (self.path / "a.prm").touch()
+
+    def run_of(self, name: str) -> StudyRun:
+        """Return the run of a position."""
+        run = Run(
+            self.path / "a.prm", {}, self.path / "runs" / name, program=FAKE_PROGRAM
+        )
+        settings = {"position": {"name": name}, "estimate": "best"}
+        return StudyRun("runs", name, "", "", 1.0, settings, run)
+
+
+class Overview(WithRuns):
+    """Made-up results."""
+
+    def write(self, name: str, boiling: float, force: np.ndarray = BEST) -> StudyRun:
+        """Write the results of a position whose water boils at a suction (Pa)."""
+        run = self.run_of(name)
+        entries = {"Time/End penetration": f"{END:g}"}
+        summary: dict[str, Any] = {"title": name, "scene": SCENE, "entries": entries}
+        write_run(run.run.directory, history_of(force, boiling), summary)
+        record = {"key": "", "entries": {}, "status": 0, "wall_s": 1, "cpu_s": 1}
+        (run.run.directory / Run.RECORD).write_text(json.dumps(record))
+        (run.run.directory / "report.html").touch()
+        return run
+
+    def test_the_worst_first(self) -> None:
+        """By utilization; a run without a result comes before all."""
+        most = (BEST[-1] - WEIGHT) / AREA
+        runs = [
+            self.write("fair", 1.5 * most),
+            self.write("good", 4 * most),
+            self.write("refused", (BEST[200] - WEIGHT) / AREA),
+            self.run_of("missing"),
+        ]
+        study = Study("runs", "positions.csv", self.path / "park.toml", runs)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            status = park_study.evaluate([study], Options(results=self.path), 1.0)
+        self.assertEqual(status, 1)
+        self.assertIn("3 of 4 positions", said.getvalue())
+        with (self.path / "overview.csv").open(encoding="utf-8") as file:
+            rows = {row["position"]: row for row in csv.DictReader(file)}
+        self.assertEqual(list(rows), ["missing", "refused", "fair", "good"])
+        shares = [float(rows[x]["utilization"]) for x in ("refused", "fair", "good")]
+        np.testing.assert_allclose(shares, [1, 1 / 1.5, 1 / 4], rtol=0.01)
+        refused = float(rows["refused"]["feasible_to_m"])
+        self.assertLess(refused, DEPTH[200])
+        self.assertGreater(refused, DEPTH[200] - 0.1)
+        self.assertEqual(rows["good"]["feasible_to_m"], "9")
+        self.assertEqual(rows["good"]["governed_by"], "water boils")
+        page = (self.path / "overview.html").read_text(encoding="utf-8")
+        self.assertIn('<a href="runs/fair/report.html">fair</a>', page)
+        self.assertIn("4 positions, 3 computed, 2 of them feasible", page)
+        self.assertGreater((self.path / "overview.png").stat().st_size, 5000)
+
+    def test_heads(self) -> None:
+        for head, found in {
+            "wall (mm)": ("wall", "mm"),
+            "Water depth_m": ("water-depth", "m"),
+            "cone test": ("cpt", ""),
+            "error_%": ("error", "%"),
+            "Layers": ("layers", ""),
+        }.items():
+            self.assertEqual(park_rows.column_of(head), found)
+
+
+class Dask(WithRuns):
+    """Runs on its workers."""
+
+    def test_without_it(self) -> None:
+        with mock.patch.dict(sys.modules, {"distributed": None}):
+            with self.assertRaisesRegex(StudyError, "--dask: distributed missing: `"):
+                dask_runs.execute([self.run_of("a")], "tcp://127.0.0.1:1", False, None)
+
+    @unittest.skipUnless(needed.is_there("distributed"), "needs python3-distributed")
+    def test_two_workers(self) -> None:
+        """All runs are made, and no run twice; one that fails says why."""
+        from distributed import LocalCluster
+
+        runs = [self.run_of(name) for name in "abc"]
+        runs.append(self.run_of("d"))
+        runs[-1].run.entries["Soil/Nothing"] = 1
+        with (
+            LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster,
+            contextlib.redirect_stdout(io.StringIO()) as said,
+        ):
+            address = cluster.scheduler_address
+            dask_runs.execute(runs, address, False, None)
+            dask_runs.execute(runs[:3], address, False, None)
+        self.assertIn("runs to do: 4, 2 at a time by Dask", said.getvalue())
+        calls = (self.path / "runs/calls").read_text().split()
+        self.assertEqual(sorted(calls), ["a", "b", "c"])
+        self.assertTrue(all(run.run.is_complete() for run in runs[:3]))
+        self.assertIn("exit status 1, see", str(runs[-1].trouble))
+
+    @unittest.skipUnless(needed.is_there("distributed"), "needs python3-distributed")
+    def test_nobody_answers(self) -> None:
+        with (
+            mock.patch.object(dask_runs, "WAIT", 1),
+            self.assertRaisesRegex(StudyError, "no scheduler answers at tcp"),
+        ):
+            dask_runs.execute([], "tcp://127.0.0.1:1", False, None)
+
+
+if __name__ == "__main__":
+    unittest.main()

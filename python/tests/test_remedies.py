@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Remedies for a caisson that suction does not install: amounts of made-up runs."""
+import unittest
+from typing import Any
+
+import numpy as np
+from test_report import SCENE, SUMMARY, WithPage, leave_run
+
+import caisson.report as report
+from caisson.plot import limits
+from caisson.report import installation, remedies, verdict
+from caisson.report.remedies import Planned, Sizes
+from caisson.results import Results
+
+PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
+
+
+class Remedies(WithPage):
+    """10 kPa for each meter below 1.5 m, on 77.29 m2 under 1 MN; the resistance has 2
+    parts of the tip and 1 of each wall; the pump has 20 kPa, which end at 3.5 m."""
+
+    def run_of(self, scene: dict[str, Any] = {}, **entries: str) -> Results:
+        """Leave a run with a skirt of 5 m, and return it."""
+        known = {**SCENE, "skirt_length_m": 5.0, **scene}
+        summary = {**SUMMARY, "entries": {**PUMP, **entries}, "scene": known}
+        leave_run(self.path, summary)
+        return Results(self.path)
+
+    def part(self, run: Results) -> installation.Installation:
+        found = installation.installation_of(run, installation.Rate())
+        assert found is not None
+        return verdict.feasible_part(run, found, verdict.verdict_of(run).end)
+
+    def rows(self, run: Results) -> dict[str, str]:
+        """Return the remedies by name."""
+        end = verdict.verdict_of(run).end
+        table = remedies.table_of(run, self.part(run), end)
+        return {name: words for name, words in table.get("rows", [])}
+
+    def test_weight_and_pump(self) -> None:
+        """At 4.5 m 30 kPa are needed: 773 kN more of weight, or a pump for them."""
+        rows = self.rows(self.run_of())
+        words = "about 1.8 MN in all instead of 1 MN"
+        self.assertEqual(rows["weight in water"], words)
+        self.assertEqual(rows["pump"], "a pump for 30 kPa instead of 20 kPa")
+        self.assertTrue(rows["stop earlier"].startswith("at 3.5 m: a skirt of 3.7 m"))
+        self.assertIn("end a run at 3.43 m", rows["cycles of force"])
+
+    def test_sizes_by_hand(self) -> None:
+        """At 4.5 m the resistance is 1000 + 30 * 77.29 = 3319 kN, of which the tip has
+        half. A wall of 20 instead of 40 mm halves the tip to 831 kN, as its area goes
+        from 1.2516 to 0.6271 m2, has 10 * 9.96 / 9.92 on the inner wall and loses
+        66.95 kN/m3 * 5 m * 0.6245 m2 = 209.1 kN of steel; 77.91 m2 bear the rest."""
+        planned = Planned(run := self.run_of(), self.part(run), 4.5)
+        self.assertAlmostEqual(planned.required, 30, delta=0.05)
+        sizes = Sizes(10, 0.02, 0)
+        sizes = sizes._replace(weight=planned.steel(sizes))
+        self.assertAlmostEqual(sizes.weight, 1000 - 209.1, delta=0.5)
+        force = 831.5 + 829.7 * (9.96 / 9.92) + 829.7
+        self.assertAlmostEqual(planned.needs(sizes), (force - 790.9) / 77.91, delta=0.1)
+        wide = Sizes(12, 0.04, 1000)
+        force = 3319 * (0.5 * 11.96 / 9.96 + 0.25 * (11.92 / 9.92 + 1.2))
+        area = np.pi / 4 * 11.92**2
+        self.assertAlmostEqual(planned.needs(wide), (force - 1000) / area, delta=0.1)
+
+    def test_wall_that_suffices(self) -> None:
+        """It is the thickest one below the present that does, by mm."""
+        run = self.run_of(**{"Design/Factor on shell buckling": "0.1"})
+        rows, planned = self.rows(run), Planned(run, self.part(run), 4.5)
+        new, old = rows["wall"].split(" mm instead of ")
+        self.assertEqual(old, "40 mm")
+        for thinner, enough in ((0.0, True), (1.0, False)):
+            wall = (float(new) + thinner) / 1e3
+            self.assertEqual(remedies.is_enough(planned, "wall", wall), enough)
+
+    def test_none_suffices(self) -> None:
+        """8 kPa of the pump are too few for any wall, and for any diameter; the page
+        has what would be gained."""
+        run = self.run_of(**{"Water/Largest suction": "8e3"})
+        rows = self.rows(run)
+        self.assertTrue(rows["wall"].startswith("none from 10 to 80 mm suffices"))
+        self.assertIn("32 mm would reach 2.", rows["wall"])
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("32 mm would reach 2.", page)
+
+    def test_pump_alone(self) -> None:
+        """20 kPa of piping stop the caisson whatever the pump."""
+        run = self.run_of(**{"Design/Factor on piping": "3"})
+        words = self.rows(run)["pump"]
+        self.assertTrue(words.startswith("no pump alone: piping, Houlsby & Byrne, fac"))
+
+    def test_skirt(self) -> None:
+        """4.5 m and 5 % of heave need more than 4.6 m, and the plug meets that lid."""
+        run = self.run_of({"skirt_length_m": 4.6})
+        self.assertTrue(
+            self.rows(run)["skirt"].startswith("longer than 4.72 m instead")
+        )
+        self.assertNotIn("skirt", self.rows(self.run_of()))
+
+    def test_nothing_to_mend(self) -> None:
+        """A feasible scene has no table, and one with another layer no amounts."""
+        entries = {"Water/Largest suction": "200e3"}
+        self.assertEqual(self.rows(self.run_of(**entries)), {})
+        layers = [*SCENE["layers"], {**SCENE["layers"][0], "top_depth_m": 4}]
+        rows = self.rows(self.run_of({"layers": layers}))
+        self.assertEqual(rows["weight, wall, diameter, pump"], remedies.NOT_KNOWN)
+
+    def test_wall_that_buckles(self) -> None:
+        """25 mm buckle above 4.5 m by a factor of 5; a thicker wall does not."""
+        entries = {"Design/Factor on shell buckling": "5"}
+        entries["Water/Largest suction"] = "90e3"
+        run = self.run_of({"wall_thickness_m": 0.025}, **entries)
+        self.assertEqual(self.part(run).governing(-1), limits.SHELL)
+        rows, planned = self.rows(run), Planned(run, self.part(run), 4.5)
+        self.assertEqual(rows["wall"], "27 mm instead of 25 mm")
+        self.assertTrue(remedies.is_enough(planned, "wall", 0.027))
+        self.assertFalse(remedies.is_enough(planned, "wall", 0.026))
+        self.assertIn("no pump alone: wall buckles", rows["pump"])
+
+
+if __name__ == "__main__":
+    unittest.main()
