@@ -51,7 +51,10 @@ def bearing_factor(ring: Ring, n: int) -> float:
     below = graded(ring.column, ring.column + 1, 2 * n, 2 * growth)
     above = [ring.column - min(ring.height, ring.column), ring.column]
     if ring.column > ring.height:
-        above = [*graded(above[0], 0.0, n, growth), *graded(ring.column, above[0], n, 4)]
+        above = [
+            *graded(above[0], 0.0, n, growth),
+            *graded(ring.column, above[0], n, 4),
+        ]
     z = join(np.array(above), below)
     mesh = Mesh(r, z)
     center = mesh.corner + mesh.size / 2

@@ -94,7 +94,8 @@ class AsBuilt(ProgramTest):
             own = walls["time_s"] == last["time_s"]
             for wall in ("inner", "outer"):
                 force = np.nansum(
-                    walls[f"{wall}_area_m2"][own] * walls[f"{wall}_shear_stress_Pa"][own]
+                    walls[f"{wall}_area_m2"][own]
+                    * walls[f"{wall}_shear_stress_Pa"][own]
                 )
                 self.assertAlmostEqual(force, last[f"{wall}_friction_N"], delta=1)
         forces = [
