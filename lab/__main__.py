@@ -22,6 +22,10 @@ GROUPS: Groups = {
             f"{REFERENCES}.plug_lift",
             "compute the suction that lifts the plug of a caisson in clay",
         ),
+        "ring-bearing": (
+            f"{REFERENCES}.ring_bearing",
+            "compute what a ring inside a caisson bears in clay",
+        ),
         "cavity-expansion": (
             f"{REFERENCES}.cavity_expansion",
             "compare an expanding cavity with its exact pressure",

@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 from scipy import sparse
 
+from lab.verification import ring_bearing as ring
 from lab.verification.bearing_capacity import Footing, pressure
 from lab.verification.limit_analysis import (
     Mesh,
@@ -69,6 +70,22 @@ class ExactLimitLoads(unittest.TestCase):
         found, v = limit_load(rows, soil.volume, -mesh.flux(z == 0, 1, size))
         self.assertAlmostEqual(found, 0.5 * 2 * 3 * (1 + 2 * 1.5), places=4)
         self.assertAlmostEqual(v[mesh.dofs[0, 1]], -2, places=4)
+
+
+class RingBearing(unittest.TestCase):
+    """What a ring inside a tube bears."""
+
+    def test_strip(self) -> None:
+        """A narrow ring on the surface, at the smooth wall, is half a smooth strip."""
+        coarse, fine = (ring.bearing_factor(ring.Ring(0.05, 0), n) for n in (4, 8))
+        self.assertTrue(2 + np.pi < fine < coarse)
+        self.assertAlmostEqual((2 * fine - coarse) / (2 + np.pi), 1, delta=0.01)
+
+    def test_column(self) -> None:
+        """Clay that stands in the opening adds to the load, until it is high enough."""
+        loads = [ring.bearing_factor(ring.Ring(0.25, h), 4) for h in (0, 0.1, 0.3, 0.6)]
+        self.assertGreater(loads[1], 1.05 * loads[0])
+        self.assertAlmostEqual(loads[3] / loads[2], 1, delta=1e-3)
 
 
 class PlugLift(unittest.TestCase):

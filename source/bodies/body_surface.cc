@@ -16,7 +16,7 @@ namespace CaissonMPM
   name_of(const Surface surface)
   {
     static const std::array<std::string, n_surfaces> names = {
-      {"tip", "inner wall", "outer wall", "top", "lid"}};
+      {"tip", "inner wall", "outer wall", "top", "lid", "ring"}};
     return names[surface];
   }
 
@@ -94,13 +94,21 @@ namespace CaissonMPM
         origins.add_unused({"Rigid body/Friction angle of the " +
                             name_of(static_cast<Surface>(s))},
                            friction_entry(static_cast<Surface>(s)) + " is set");
-    if (shape.left() > 0.)
-      return;
-    const std::string of = " of the " + name_of(inner_wall);
-    origins.add_unused({"Rigid body/Friction angle" + of,
-                        "Rigid body/Friction coefficient" + of,
-                        "Rigid body/Adhesion" + of},
-                       "the body has no inner wall: Rigid body/Kind is " +
-                         shape.name());
+    const auto add_unused = [&origins](const Surface      surface,
+                                       const std::string &reason) {
+      const std::string of = " of the " + name_of(surface);
+      origins.add_unused({"Rigid body/Friction angle" + of,
+                          "Rigid body/Friction coefficient" + of,
+                          "Rigid body/Adhesion" + of},
+                         reason);
+    };
+    if (shape.left() <= 0.)
+      add_unused(inner_wall,
+                 "the body has no inner wall: Rigid body/Kind is " +
+                   shape.name());
+    if (!shape.has_ledges())
+      add_unused(ring,
+                 "the body has no ring, and no wall step that makes it "
+                 "thicker");
   }
 } // namespace CaissonMPM

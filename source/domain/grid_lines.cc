@@ -218,9 +218,10 @@ namespace CaissonMPM
   GridLines::inside_body(const unsigned int column,
                          const unsigned int row) const
   {
-    if (row >= body_row_end || column >= body_column_end)
-      return false;
-    return row >= (column < body_column_begin ? lid_row_begin : body_row_begin);
+    for (const Range &range : body_ranges)
+      if (range.contains(column, row))
+        return true;
+    return lid.contains(column, row);
   }
 
   std::vector<double>

@@ -89,7 +89,8 @@ namespace CaissonMPM
     if (levels > 0 && is_wedge(body))
       decay_below =
         std::min(decay_below, distance_of_tip(body) * (1u << (levels - 1)));
-    decay_above = std::min(decay_below, zone_top - shoulder);
+    decay_above = std::min(
+      {decay_below, zone_top - shoulder, lowest_ledge(body) - shoulder});
   }
 
   // ------------------------------------------------------------ spacing
@@ -155,6 +156,63 @@ namespace CaissonMPM
             body.right() - (at_side ? 0. : inset)};
   }
 
+  double
+  GridLines::lowest_ledge(const BodyShape &body)
+  {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      lowest = std::min(lowest, body.part(i).bottom);
+    // an edge that is not in the middle bends the rows beside the wall
+    const double shoulder = body.bottom() + body.tip_height();
+    if (shoulder < 0. &&
+        std::min(body.lower_surface(body.left()),
+                 body.lower_surface(body.right())) < shoulder - 1e-9)
+      lowest = std::min(lowest, 0.);
+    return lowest;
+  }
+
+  void
+  GridLines::check_parts(const BodyShape   &body,
+                         const double       cell,
+                         const double       line_spacing,
+                         const std::string &entry)
+  {
+    constexpr double smallest = .5, least = 2.; // cells in a gap, at a ring
+    const auto refuse = [&](const std::string &what, const double needed) {
+      throw BadInput(what + " of " + meters(cell) + " (" + entry +
+                     "). Cells of " + meters(needed) +
+                     " or less are needed: increase Rigid body/Cells across "
+                     "the wall, or set Grid/Fine cell size.");
+    };
+    const auto check = [&](std::vector<double> lines, const char *direction) {
+      std::sort(lines.begin(), lines.end());
+      for (std::size_t i = 0; i + 1 < lines.size(); ++i)
+        if (const double gap = lines[i + 1] - lines[i];
+            gap > 1e-9 && gap < smallest * line_spacing * (1. - 1e-6))
+          refuse("Two faces of the body are " + meters(gap) + " apart in " +
+                   direction + ", less than half of a cell",
+                 gap / smallest * cell / line_spacing);
+    };
+    std::vector<double> radii   = body.radii_of_tip(),
+                        heights = {body.bottom() + body.tip_height(),
+                                   body.lower_face_of_lid()};
+    for (unsigned int i = 0; i < body.n_parts(); ++i)
+      {
+        const BodyPart part  = body.part(i);
+        const double   width = part.right - part.left;
+        if (body.is_ring(i) && width < least * cell * (1. - 1e-6))
+          refuse("Rigid body/Rings: a ring " + meters(width) +
+                   " wide is less than two cells",
+                 width / least);
+        radii.insert(radii.end(), {part.left, part.right});
+        heights.push_back(part.top);
+        if (i > 0)
+          heights.push_back(part.bottom);
+      }
+    check(radii, "r");
+    check(heights, "z");
+  }
+
   GridLines::Spacing
   GridLines::spacing_in_r(const BodyShape &body) const
   {
@@ -170,20 +228,37 @@ namespace CaissonMPM
                      meters(right) + ", must exceed Grid/Inner radius = " +
                      meters(inner_radius) +
                      ". Reduce Grid/Inner radius, for instance to 0.");
-    if (left < inner_radius || right > outer_radius)
-      throw BadInput("The body, from r = " + meters(left) + " to " +
-                     meters(right) + ", does not fit in the mesh, from r = " +
+    double from = left, to = right; // with rings and steps
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      {
+        from = std::min(from, body.part(i).left);
+        to   = std::max(to, body.part(i).right);
+      }
+    if (from < inner_radius || to > outer_radius)
+      throw BadInput("The body, from r = " + meters(from) + " to " +
+                     meters(to) + ", does not fit in the mesh, from r = " +
                      meters(inner_radius) + " to " + meters(outer_radius) +
                      ". Change Grid/Outer radius or the body.");
     const auto   finest = finest_cell(body, cell_width, "Grid/Cell width");
     const double fine   = finest.first * (1u << levels);
-    const auto   size   = [=, left = left, right = right](const double r) {
+    std::vector<FixedLine> fixed = {inner,
+                                    {left, "the body"},
+                                    {right, "the body"},
+                                    outer};
+    for (const double r : body.radii_of_tip())
+      fixed.push_back({r, "the edge of the tip"});
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      for (const double r : {body.part(i).left, body.part(i).right})
+        fixed.push_back({r, "a step or ring of the wall"});
+    if (fixed.size() > 4)
+      check_parts(body, finest.first, fine, finest.second);
+    const auto size = [=, right = right](const double r) {
       if (expands && r < right)
         return right - inner_radius;
-      const double distance = std::max({left - r, r - right, 0.}) - fine_width;
+      const double distance = std::max({from - r, r - to, 0.}) - fine_width;
       return size_at(distance, fine, cell_width);
     };
-    return {{inner, {left, "the body"}, {right, "the body"}, outer},
+    return {fixed,
             size,
             fine,
             finest.second + " or Grid/Fine width = " + meters(fine_width)};
@@ -221,15 +296,27 @@ namespace CaissonMPM
     fixed.push_back({zone_top, "the top of the body"});
     if (body.has_lid())
       fixed.push_back({body.lower_face_of_lid(), "the lid of the body"});
+    std::vector<double> faces = {shoulder};
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      for (const double z : {body.part(i).bottom, body.part(i).top})
+        if (std::abs(z - zone_top) > 1e-9)
+          {
+            faces.push_back(z);
+            fixed.push_back({z, "a step or ring of the wall"});
+          }
     const auto   finest = finest_cell(body, cell_height, "Grid/Cell height");
     const double fine   = finest.first * (1u << levels);
     // a flat row between both lines would only make the time step small
     constexpr double flat = .75; // of a cell
-    if (shoulder != 0. && std::abs(shoulder) < flat * fine)
+    if (std::any_of(faces.begin(), faces.end(), [fine](const double z) {
+          return z != 0. && std::abs(z) < flat * fine;
+        }))
       fixed.erase(fixed.begin() + 1);
     const auto size = [=](const double z) {
-      const double distance = std::abs(z - shoulder) - fine_height;
-      return size_at(distance, fine, cell_height);
+      double to_face = std::numeric_limits<double>::infinity();
+      for (const double face : faces)
+        to_face = std::min(to_face, std::abs(z - face));
+      return size_at(to_face - fine_height, fine, cell_height);
     };
     return {fixed,
             size,
@@ -343,8 +430,6 @@ namespace CaissonMPM
   void
   GridLines::find_body(const BodyShape &body)
   {
-    // of a cylinder all rows; no columns without a body
-    body_row_end = lid_row_begin = n_rows();
     if (!body.exists())
       return;
     const auto [left, right] = sides_of_body(body);
@@ -352,13 +437,45 @@ namespace CaissonMPM
     body_column_end          = line_at(columns, right);
     dip.assign(columns.size(), 0.);
     if (body.expands())
-      return;
+      {
+        body_ranges = {{body_column_begin, body_column_end, 0, n_rows()}};
+        return;
+      }
+    find_dips(body);
+    body_row_begin = line_at(rows, shoulder);
+    for (unsigned int i = 0; i < body.n_parts(); ++i)
+      {
+        const BodyPart part = body.part(i);
+        body_ranges.push_back(
+          {i == 0 ? body_column_begin : line_at(columns, part.left),
+           i == 0 ? body_column_end : line_at(columns, part.right),
+           i == 0 ? body_row_begin : line_at(rows, part.bottom),
+           line_at(rows, part.top)});
+      }
+    if (body.has_lid())
+      lid = {0,
+             line_at(columns, body.left_at_top()),
+             line_at(rows, body.lower_face_of_lid()),
+             line_at(rows, zone_top)};
+  }
+
+  void
+  GridLines::find_dips(const BodyShape &body)
+  {
     for (unsigned int i = body_column_begin; i <= body_column_end; ++i)
       dip[i] = shoulder - body.lower_surface(columns[i]);
-    body_row_begin = line_at(rows, shoulder);
-    body_row_end   = line_at(rows, zone_top);
-    lid_row_begin =
-      body.has_lid() ? line_at(rows, body.lower_face_of_lid()) : body_row_end;
+    // beside an edge that is not in the middle, rows become level again
+    const double left      = columns[body_column_begin],
+                 right     = columns[body_column_end];
+    const auto at_distance = [&](const double of_side, const double distance) {
+      return of_side < 1e-9 ?
+               0. :
+               of_side * std::max(0., 1. - distance / (right - left));
+    };
+    for (unsigned int i = 0; i < body_column_begin; ++i)
+      dip[i] = at_distance(dip[body_column_begin], left - columns[i]);
+    for (unsigned int i = body_column_end + 1; i < columns.size(); ++i)
+      dip[i] = at_distance(dip[body_column_end], columns[i] - right);
   }
 
   std::string

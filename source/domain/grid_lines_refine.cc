@@ -87,9 +87,10 @@ namespace CaissonMPM
   {
     const double left = body.left(), right = body.right();
     return body.tip_height() > 0. &&
-           body.lower_surface(.5 * (left + right)) <
-             .5 * (body.lower_surface(left) + body.lower_surface(right)) -
-               1e-9 * body.tip_height();
+           (left > 0. ||
+            body.lower_surface(.5 * (left + right)) <
+              .5 * (body.lower_surface(left) + body.lower_surface(right)) -
+                1e-9 * body.tip_height());
   }
 
   void
@@ -156,9 +157,25 @@ namespace CaissonMPM
       return level_at(aside, thickness, levels_at_wall);
     const double from_tip  = distance(low, high, body.bottom(), shoulder),
                  from_wall = distance(low, high, shoulder, zone_top);
-    return std::max(
+    unsigned int level     = std::max(
       level_at(std::max(aside, from_tip), distance_of_tip(body), levels),
       level_at(std::max(aside, from_wall), thickness, levels_at_wall));
+    for (unsigned int i = 1; i < body.n_parts(); ++i)
+      {
+        const BodyPart part = body.part(i);
+        const double   from_part =
+          std::max(distance(low, high, part.bottom, part.top),
+                   distance(columns[b.column],
+                            columns[b.column + b.size],
+                            part.left,
+                            part.right));
+        // a ring like the tip, a piece of the wall like the wall
+        level = std::max(level,
+                         level_at(from_part,
+                                  thickness,
+                                  body.is_ring(i) ? levels : levels_at_wall));
+      }
+    return level;
   }
 
   bool

@@ -15,7 +15,7 @@ namespace CaissonMPM
     Surface
     dominant(const Surface a, const Surface b)
     {
-      for (const Surface s : {tip, lid, top, outer_wall})
+      for (const Surface s : {tip, ring, lid, top, outer_wall})
         if (a == s || b == s)
           return s;
       return a;

@@ -32,8 +32,9 @@ namespace CaissonMPM
         }
       const Vector2 along  = x[1] - x[0];
       const double  length = along.norm();
-      face.surface =
-        surfaces[f] == tip && grid.is_lid(cell) ? lid : surfaces[f];
+      face.surface         = surfaces[f];
+      if (face.surface == tip && !grid.is_lowest(cell))
+        face.surface = grid.is_lid(cell) ? lid : ring;
       face.normal[0] = along[1] / length;
       face.normal[1] = -along[0] / length;
       if (f == 0 || f == 3) // the other side

@@ -22,6 +22,7 @@ namespace CaissonMPM
       using Row                 = const HistoryRow &;
       constexpr auto body       = &SceneParts::body;
       constexpr auto caisson    = &SceneParts::caisson;
+      constexpr auto ledges     = &SceneParts::ledges;
       constexpr auto expanding  = &SceneParts::expanding_body;
       constexpr auto prescribed = &SceneParts::prescribed_soil;
       constexpr auto water      = &SceneParts::water_on_body;
@@ -56,6 +57,7 @@ namespace CaissonMPM
            body},
           {"step", [](Row row) { return 1. * row.step; }},
           {"lid_force_N", [](Row row) { return row.lid; }, caisson},
+          {"ring_force_N", [](Row row) { return row.ring; }, ledges},
           {"cavity_pressure_Pa", [](Row row) { return row.cavity; }, expanding},
           {"prescribed_force_r_N",
            [](Row row) { return row.prescribed_r; },

@@ -102,6 +102,7 @@ namespace CaissonMPM
     const BodyShape &shape = parts.body.shape();
     return {shape.exists(),
             number_named("skirt_length_m", shape.dimensions()).has_value(),
+            shape.has_ledges(),
             shape.exists() && shape.expands(),
             parts.boundary_conditions.prescribe_a_region(),
             parts.generator.splits_and_merges(),

@@ -115,7 +115,7 @@ namespace CaissonMPM
   {
     const double  interval = parts.clock.time - last_record;
     double *const forces[] = {
-      &row.tip, &row.inner, &row.outer, &row.top, &row.lid};
+      &row.tip, &row.inner, &row.outer, &row.top, &row.lid, &row.ring};
     for (unsigned int s = 0; s < n_surfaces; ++s)
       {
         if (interval > 0.)

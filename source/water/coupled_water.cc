@@ -86,6 +86,11 @@ namespace CaissonMPM
   {
     bottom_expression().at_time(0.);
     FlowingWater::check_parameters();
+    if (scene.body.shape().n_parts() > 1)
+      throw BadInput(
+        "Water/Level is coupled, and the wall has Rigid body/Wall steps or "
+        "Rings: coupled water cannot leave the soil beside the gap above them. "
+        "Set Level = seepage or undrained, or leave them out.");
     const PressureSolver::OpenSides &open = scene.settings.sides;
     if (!lid && !open.surface && !open.outer && !open.bottom)
       throw BadInput(
@@ -228,10 +233,13 @@ namespace CaissonMPM
   void
   CoupledWater::integrate_over_tip()
   {
-    tip.integrate(scene.grid,
-                  [this](const unsigned int cell, const unsigned int) {
-                    return projection.pressure_in(cell);
-                  });
+    tip.integrate(
+      scene.grid,
+      [this](const unsigned int cell, const unsigned int) {
+        return projection.pressure_in(cell);
+      },
+      0.,
+      [](const unsigned int) { return 0.; }); // neither steps nor rings
   }
 
   WaterFlow
@@ -245,7 +253,7 @@ namespace CaissonMPM
     result.plug_rate      = plug_rate;
     result.response       = projection.conductance_of_plug();
     if (suction() > 0. && tip.area() > 0.)
-      result.pressure_factor = -tip.value() / tip.area() / suction();
+      result.pressure_factor = -tip.at_tip() / tip.area() / suction();
     result.n_iterations = projection.solver().n_iterations();
     return result;
   }

@@ -48,6 +48,8 @@ namespace CaissonMPM
                    middle > body.left()                    ? Side::body :
                                                              Side::plug;
       }
+    at_inner_wall =
+      std::find(sides.begin(), sides.end(), Side::body) - sides.begin() - 1;
     std::vector<unsigned int> lowest_of_body(lines.n_columns(), lines.n_rows());
     for (unsigned int i = 0; i < grid.n_global_cells(); ++i)
       {
@@ -58,6 +60,8 @@ namespace CaissonMPM
             {
               unsigned int &row = lowest_of_body[block.column + c];
               row               = std::min(row, block.row);
+              if (sides[block.column] == Side::plug && !lines.is_lid_cell(cell))
+                at_inner_wall = std::min(at_inner_wall, block.column - 1);
             }
       }
     // the column of an edge that is inset has soil only
@@ -68,6 +72,7 @@ namespace CaissonMPM
     first_column.resize(grid.n_cells());
     n_columns.resize(grid.n_cells());
     is_below_body.resize(grid.n_cells());
+    sides_of_cells.resize(grid.n_cells());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         const CellBlock &block = lines.tree().block(grid.global_number(cell));
@@ -75,7 +80,27 @@ namespace CaissonMPM
         n_columns[cell]        = block.size;
         is_below_body[cell]    = sides[block.column] == Side::body &&
                               block.row < lowest_of_body[block.column];
+        sides_of_cells[cell] = sides[block.column];
+        if (sides[block.column] == Side::body && !is_below_body[cell])
+          sides_of_cells[cell] =
+            side_above_step(lines, body, grid.global_number(cell));
       }
+  }
+
+  Mudline::Side
+  Mudline::side_above_step(const GridLines &lines,
+                           const BodyShape &body,
+                           const GlobalCell cell)
+  {
+    const auto g = lines.initial_geometry(cell);
+    if (lines.is_body_cell(cell) || body.n_parts() == 1 ||
+        bottom_of(g) > body.top() - round_off)
+      return Side::body;
+    const CellBlock &block = lines.tree().block(cell);
+    for (unsigned int c = block.column; c < lines.n_columns(); ++c)
+      if (lines.is_body_cell(lines.tree().cell_at(c, block.row)))
+        return Side::plug;
+    return Side::beyond;
   }
 
   std::vector<Mudline::Top>
@@ -201,7 +226,10 @@ namespace CaissonMPM
             if (above < 0)
               is_known = grid.at_side(cell, 3);
             else
-              is_wet = is_wet || filled_[above] > 0.;
+              // soil that touches a ring has no open water above
+              is_wet = is_wet || filled_[above] > 0. ||
+                       (grid.is_rigid(above) && !grid.is_lid(above) &&
+                        filled_[cell] >= touching);
           }
         if (is_known) // where another rank knows better, the height is left
           top[cell] = !is_wet;
@@ -251,8 +279,7 @@ namespace CaissonMPM
   Mudline::height_at_wall(const Side side) const
   {
     return side == Side::plug ?
-             heights[std::find(sides.begin(), sides.end(), Side::body) -
-                     sides.begin() - 1] :
+             heights[at_inner_wall] :
              heights[std::find(sides.begin(), sides.end(), Side::beyond) -
                      sides.begin()];
   }

@@ -132,11 +132,16 @@ namespace CaissonMPM
                   scene.settings.sides);
     if (!tip_is_in_clay())
       fill_clay_of_plug();
-    tip.integrate(scene.grid,
-                  [this](const unsigned int cell, const unsigned int corner) {
-                    return seepage.field().local_element(
-                      scene.grid.cell_nodes(cell).node[corner]);
-                  });
+    tip.integrate(
+      scene.grid,
+      [this](const unsigned int cell, const unsigned int corner) {
+        return seepage.field().local_element(
+          scene.grid.cell_nodes(cell).node[corner]);
+      },
+      1.,
+      [this](const unsigned int cell) {
+        return mudline.filled()[cell] >= Mudline::touching ? 1. : 0.;
+      });
     const auto sums  = seepage.solver().sums_by_state(seepage.residual());
     flow_out         = sums[PressureSolver::plug];
     flow_in          = -sums[PressureSolver::open];
@@ -210,7 +215,7 @@ namespace CaissonMPM
     result.in              = flow_in;
     result.tip_force       = -suction() * tip.value();
     result.tip_area        = tip.value();
-    result.pressure_factor = tip.value() / tip.area();
+    result.pressure_factor = tip.at_tip() / tip.area();
     result.plug_rate       = plug_rate;
     result.response        = flow_out / scene.soil.unit_weight_of_water();
     result.n_iterations    = seepage.solver().n_iterations();

@@ -18,6 +18,35 @@ namespace CaissonMPM
             (of_cylinder || mudline.side_of(cell) == Mudline::Side::body))
           cells.push_back(cell);
       }
+    ledges.clear();
+    if (shape.n_parts() > 1)
+      find_ledges(grid, shape, mudline);
+  }
+
+  void
+  TipIntegral::find_ledges(const BackgroundGrid &grid,
+                           const BodyShape      &shape,
+                           const Mudline        &mudline)
+  {
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        if (!grid.is_owned(cell) || grid.is_rigid(cell) ||
+            mudline.side_of(cell) == Mudline::Side::body)
+          continue;
+        const bool is_inside = mudline.side_of(cell) == Mudline::Side::plug;
+        const int  above     = grid.neighbor(cell, 3),
+                  below      = grid.neighbor(cell, 2);
+        const auto areas =
+          areas_of_side(grid.geometry(cell), grid.axisymmetric());
+        if (above >= 0 && grid.is_rigid(above) && !grid.is_lid(above))
+          ledges.push_back({cell, 2, is_inside, areas});
+        // not what is above the body
+        const auto start =
+          grid.lines().initial_geometry(grid.global_number(cell));
+        if (below >= 0 && grid.is_rigid(below) &&
+            start.bottom_left < shape.top() - 1e-9)
+          ledges.push_back({cell, 0, is_inside, {{-areas[0], -areas[1]}}});
+      }
   }
 
   std::array<double, 2>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/water/undrained_water.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM
@@ -86,10 +88,18 @@ namespace CaissonMPM
     scene.points.level_volume_ratio(pressure);
     for (double &value : pressure)
       value = -scene.settings.undrained.bulk_modulus * std::log(value);
-    tip.integrate(scene.grid,
-                  [this](const unsigned int cell, const unsigned int) {
-                    return pressure[cell];
-                  });
+    // the pressure acts in the share of a cell that is filled
+    tip.integrate(
+      scene.grid,
+      [this](const unsigned int cell, const unsigned int) {
+        return pressure[cell];
+      },
+      0.,
+      [this](const unsigned int cell) {
+        const double whole = Kernels::CellMap<>(scene.grid.geometry(cell))
+                               .volume(scene.grid.axisymmetric() ? 1. : 0.);
+        return std::min(1., scene.points.filled_volume_in(cell) / whole);
+      });
   }
 
   void

@@ -104,6 +104,90 @@ check_cells()
               lines.sides_of(1, 1));
 }
 
+/** Entries of the section Rigid body, as a text of parameters. */
+std::string
+wall_with(const std::string &entries)
+{
+  return "subsection Rigid body\nset Tip angle = 45\n" + entries +
+         "\nend\nsubsection Grid\nset Moving zone below tip = 2\nend\n";
+}
+
+/** The cells of a wall with steps and rings are the body's, and have its
+ * volume; rows are level at all faces above the tip. */
+void
+check_wall_as_built()
+{
+  const std::string step = "set Wall steps = 1:0.1, 2:0.3\n",
+                    ring = "set Rings = 0.5:0.3:0.1, 1.4:0.2:0.2\n";
+  // rings are at the inner face of the piece behind them
+  const auto tube = [](const double from, const double to, const double h) {
+    return pi * h * (to * to - from * from);
+  };
+  const double h = .2, outside = h * (3. - .2 / 3.),
+               inside = h * (2.8 + .2 / 3.);
+  // of a tip as high as the wall is thick, half of its rectangle
+  const auto tip = [&](const double edge) {
+    return tube(2.8, 3., 1.) -
+           2. * pi * .5 * h * (edge == 0. ? outside : inside);
+  };
+  const double rings = tube(2.5, 2.8, .1) + tube(2.7, 2.9, .2);
+  for (const double edge : {0., 1.})
+    for (const char *levels : {"0", "1"})
+      {
+        const Lines  s(caisson +
+                        wall_with("set Edge of the tip = " +
+                                  std::to_string(edge) + "\n" + step + ring) +
+                        "subsection Grid\nset Refinement levels = " + levels +
+                        "\nend\n",
+                      1.);
+        double       volume = 0.;
+        unsigned int wrong = 0, n_lowest = 0;
+        for (unsigned int c = 0; c < s.lines.n_cells(); ++c)
+          {
+            const GlobalCell cell{c};
+            const auto       g       = s.lines.initial_geometry(cell);
+            const bool       is_body = s.lines.is_body_cell(cell);
+            for (const double x : {.01, .5, .99})
+              for (const double y : {.01, .5, .99})
+                wrong +=
+                  is_body != s.body.shape().contains(
+                               to_position(g, dealii::Point<2>(x, y)), 0.);
+            n_lowest += s.lines.is_lowest_cell(cell);
+            if (is_body)
+              volume += 2. * pi * g.width *
+                        ((g.left / 2. + g.width / 6.) * g.height_left +
+                         (g.left / 2. + g.width / 3.) * g.height_right);
+          }
+        std::printf("edge %.0f, levels %s: lowest cells %u\n",
+                    edge,
+                    levels,
+                    n_lowest);
+        verdict("wall as built: places in the wrong cell", wrong, 0.);
+        verdict("wall as built: error of the volume",
+                std::abs(volume / (tip(edge) + tube(2.9, 3., 1.) +
+                                   tube(2.7, 3., 1.) + rings) -
+                         1.),
+                1e-12);
+      }
+}
+
+/** A step that does not change the thickness leaves the mesh as it is. */
+void
+check_equal_thickness()
+{
+  const Lines plain(caisson + wall_with("")),
+    stepped(caisson + wall_with("set Wall steps = 1:0.2, 2:0.2"));
+  bool same = plain.lines.n_cells() == stepped.lines.n_cells();
+  for (unsigned int c = 0; same && c < plain.lines.n_cells(); ++c)
+    {
+      const auto a = plain.lines.initial_geometry(GlobalCell{c}),
+                 b = stepped.lines.initial_geometry(GlobalCell{c});
+      same         = a.left == b.left && a.bottom_left == b.bottom_left &&
+             a.height_left == b.height_left;
+    }
+  std::printf("equal thicknesses: %s mesh\n", same ? "the same" : "another");
+}
+
 /** The mesh has the free edges of a footing half a cell inside those of the
  * box, but not those of a box that goes deeper, or that begins below the
  * surface. */
@@ -297,6 +381,22 @@ check_refusals()
   refuse("subsection Grid\nset Cell width = 1e-7\nend\n"
          "subsection Rigid body\nset Kind = none\nend\n");
   refuse("subsection Grid\nset Largest number of cells = 100\nend\n");
+  // steps and rings that contradict each other, or need smaller cells
+  for (const char *entries :
+       {"set Wall steps = 1:0.1, 1:0.3",
+        "set Wall steps = 0.05:0.1",
+        "set Wall steps = 2.5:0.1\nset Lid thickness = 0.6",
+        "set Wall steps = 1:3",
+        "set Wall steps = 1:0.19",
+        "set Rings = 1:0.1:0.1",
+        "set Rings = 1:0.2:0.04",
+        "set Rings = 1:0.2:0.1, 1.1:0.2:0.1",
+        "set Rings = 0.1:0.2:0.1",
+        "set Rings = 2.95:0.2:0.1",
+        "set Rings = 1:2.8:0.1",
+        "set Rings = 1:0.2:0.2\nset Wall steps = 1.1:0.1",
+        "set Edge of the tip = 0.1"})
+    refuse(wall_with(entries));
 }
 
 int
@@ -304,6 +404,8 @@ main()
 {
   check_lines();
   check_cells();
+  check_wall_as_built();
+  check_equal_thickness();
   check_edges_of_footing();
   check_similar_meshes();
   check_motion();

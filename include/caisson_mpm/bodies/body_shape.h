@@ -13,9 +13,16 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
+  /** A rectangle in r and z at the start. Units: m. */
+  struct BodyPart
+  {
+    double left, right, bottom, top;
+  };
+
   /**
    * What the grid, the points and the output ask of a body's shape. A shape is
    * one class in one file; it declares its own entries in section Rigid body
@@ -62,8 +69,8 @@ namespace CaissonMPM
       return true;
     }
 
-    /** Return the extent in r and z: of the skirt of a caisson, else of the
-     * whole body. Units: m. */
+    /** Return the extent in r and z: of the skirt of a caisson, with its
+     * thickness at the tip, else of the whole body. Units: m. */
     virtual double
     left() const = 0;
     virtual double
@@ -111,10 +118,53 @@ namespace CaissonMPM
       return bottom();
     }
 
+    /** Return the radii between left() and right() at which the tip needs a
+     * node. Units: m. */
+    virtual std::vector<double>
+    radii_of_tip() const
+    {
+      return {};
+    }
+
+    /** Return how many rectangles the body consists of, a lid aside. */
+    virtual unsigned int
+    n_parts() const
+    {
+      return 1;
+    }
+
+    /** Return one of them. The first one ends at the lower surface. */
+    virtual BodyPart
+    part(const unsigned int /*i*/) const
+    {
+      return {left(), right(), bottom(), top()};
+    }
+
+    /** Whether a part is a ring inside the wall. */
+    virtual bool
+    is_ring(const unsigned int /*i*/) const
+    {
+      return false;
+    }
+
+    /** Whether faces above the tip look down, besides those of a lid. */
+    virtual bool
+    has_ledges() const
+    {
+      return false;
+    }
+
     virtual bool
     has_lid() const
     {
       return false;
+    }
+
+    /** Return the inner radius of the body at its top. Units: m. */
+    virtual double
+    left_at_top() const
+    {
+      return left();
     }
 
     /** Return the height of the lid's lower face. Units: m. */
@@ -215,12 +265,18 @@ namespace CaissonMPM
     check_cells_across(const unsigned int n,
                        const unsigned int multiple = 1) const;
 
+    static bool
+    is_within(const Point &p, const BodyPart &part)
+    {
+      return p[0] > part.left + round_off && p[0] < part.right - round_off &&
+             p[1] < part.top - round_off && p[1] > part.bottom + round_off;
+    }
+
     /** Whether a place is inside left(), right(), bottom() and top(). */
     bool
     is_within_extent(const Point &p) const
     {
-      return p[0] > left() + round_off && p[0] < right() - round_off &&
-             p[1] < top() - round_off && p[1] > bottom() + round_off;
+      return is_within(p, {left(), right(), bottom(), top()});
     }
 
     // Entries that several shapes have. Each declares them for itself, so that

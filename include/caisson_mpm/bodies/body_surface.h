@@ -19,12 +19,13 @@ namespace CaissonMPM
   /** The surfaces of a body, for friction and for the split of its forces. */
   enum Surface : unsigned int
   {
-    tip        = 0, // faces that look down, but for those of a lid
+    tip        = 0, // the lowest faces, which look down
     inner_wall = 1, // vertical faces towards the axis
     outer_wall = 2, // vertical faces away from the axis
     top        = 3, // faces that look up
     lid        = 4, // the lower face of a lid
-    n_surfaces = 5
+    ring       = 5, // other faces above the tip that look down
+    n_surfaces = 6
   };
 
   /** The name of a surface as in the entries, for instance "inner wall". */
@@ -68,14 +69,15 @@ namespace CaissonMPM
     friction_angles() const;
 
     /** Contact adhesion by surface. Units: Pa. */
-    std::array<double, n_surfaces> adhesion = {{0., 0., 0., 0., 0.}};
+    std::array<double, n_surfaces> adhesion = {};
 
     /** Whether at the edges of the body each face has a velocity of its own
      * (operators/contact_corners.h); else soil moves into neither face. */
     bool splits_corners = true;
 
   private:
-    std::array<double, n_surfaces> friction_angle = {{20., 20., 20., 20., 20.}};
+    std::array<double, n_surfaces> friction_angle = {
+      {20., 20., 20., 20., 20., 20.}};
     // instead of the angles, where they are set
     std::array<std::optional<double>, n_surfaces> coefficient;
   };

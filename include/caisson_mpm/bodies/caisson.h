@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A caisson: a tube with a triangular or flat tip, open or closed by a lid.
+// A caisson: a tube with a triangular or flat tip, open or closed by a lid. The
+// thickness of its wall may change over the height, and rings may stiffen it.
 #ifndef caisson_mpm_bodies_caisson_h
 #define caisson_mpm_bodies_caisson_h
 
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/bodies/body_shape.h>
+#include <caisson_mpm/bodies/caisson_wall.h>
 
 #include <deal.II/base/patterns.h>
 
@@ -16,8 +17,8 @@
 
 namespace CaissonMPM
 {
-  /** The extent is that of the skirt. A lid reaches from the axis to the skirt,
-   * with its upper face at the skirt's top. */
+  /** The extent is that of the skirt, as thick as at the tip. A lid reaches
+   * from the axis to the skirt, with its upper face at the skirt's top. */
   class Caisson : public BodyShape
   {
   public:
@@ -28,16 +29,25 @@ namespace CaissonMPM
       add_skirt_length(skirt_length);
       add_parameter("Wall thickness",
                     wall_thickness,
-                    "The thickness of a caisson's skirt. Units: m.",
+                    "The thickness of a caisson's skirt, at its tip if it "
+                    "changes. Units: m.",
                     prm,
                     Double(1e-9));
+      wall.declare(*this);
       add_cells_across(cells_across);
       add_choice(*this,
                  "Tip",
                  tip,
                  {{"triangular", Tip::triangular}, {"flat", Tip::flat}},
-                 "The form of a caisson's tip is a wedge with its edge in the "
-                 "middle of the wall (triangular), or flat. Units: none.");
+                 "The form of a caisson's tip is a wedge (triangular), or "
+                 "flat. Units: none.");
+      add_parameter("Edge of the tip",
+                    edge_of_tip,
+                    "The distance of the triangular tip's edge from the inner "
+                    "face of the wall, as a share of the thickness: 0 is a "
+                    "bevel outside, 1 a bevel inside. Units: none.",
+                    prm,
+                    Double(0., 1.));
       add_parameter("Tip angle",
                     tip_angle,
                     "The angle of the triangular tip's faces to the "
@@ -59,6 +69,8 @@ namespace CaissonMPM
                     prm,
                     Double(0.));
       add_initial_penetration(initial_penetration);
+      parse_parameters_call_back.connect(
+        [this]() { wall.read(wall_thickness); });
     }
 
     std::string
@@ -81,8 +93,9 @@ namespace CaissonMPM
           "Rigid body/Wall thickness = " + to_text(wall_thickness) +
           " m leaves no soil plug within Outer diameter = " +
           to_text(outer_diameter) + " m. Reduce the thickness.");
-      check_cells_across(cells_across, tip == Tip::triangular ? 2 : 1);
+      check_cells_across(cells_across, has_edge_in_middle() ? 2 : 1);
       check_tip();
+      wall.check(plain_wall(), tip_height(), lower_face_of_lid() - bottom());
       if (has_lid() && lower_face_of_lid() < -round_off)
         throw BadInput("Rigid body/Lid thickness = " + to_text(lid_thickness) +
                        " m puts the lid's lower face at z = " +
@@ -95,7 +108,12 @@ namespace CaissonMPM
     name_unused_entries(ParameterOrigins &origins) const override
     {
       if (tip == Tip::flat)
-        origins.add_unused({"Rigid body/Tip angle"}, "Rigid body/Tip is flat");
+        origins.add_unused({"Rigid body/Tip angle",
+                            "Rigid body/Edge of the tip"},
+                           "Rigid body/Tip is flat");
+      if (!wall.has_steps())
+        origins.add_unused({"Rigid body/Flush face"},
+                           "Rigid body/Wall steps has none");
     }
 
     void
@@ -133,22 +151,66 @@ namespace CaissonMPM
     double
     tip_height() const override
     {
-      return slope() * .5 * wall_thickness + bevel();
+      return height_of_faces() + bevel();
     }
 
     double
     height_of_bent_rows() const override
     {
-      return 8. * std::max(slope() * .5 * wall_thickness, bevel());
+      return 8. * std::max(height_of_faces(), bevel());
     }
 
     double
     lower_surface(const double r) const override
     {
-      const double from_edge = std::abs(r - .5 * (left() + right())),
-                   from_side = .5 * wall_thickness - from_edge;
-      return bottom() + slope() * std::min(from_edge, .5 * wall_thickness) +
-             bevel() * std::clamp(1. - from_side / cell_width(), 0., 1.);
+      const double middle    = .5 * (left() + right()),
+                   from_edge = std::abs(r - edge()),
+                   from_side = .5 * wall_thickness - std::abs(r - middle);
+      // an edge at a side stays sharp
+      const bool is_sharp =
+        tip == Tip::triangular &&
+        (r < middle ? edge_of_tip <= 0. : edge_of_tip >= 1.);
+      return bottom() + std::min(slope() * from_edge, height_of_faces()) +
+             (is_sharp ? 0. : bevel()) *
+               std::clamp(1. - from_side / cell_width(), 0., 1.);
+    }
+
+    std::vector<double>
+    radii_of_tip() const override
+    {
+      if (tip == Tip::flat || (has_edge_in_middle() && !wall.has_steps()))
+        return {};
+      return {edge()};
+    }
+
+    unsigned int
+    n_parts() const override
+    {
+      return wall.n_parts();
+    }
+
+    BodyPart
+    part(const unsigned int i) const override
+    {
+      return wall.part(i, plain_wall());
+    }
+
+    bool
+    is_ring(const unsigned int i) const override
+    {
+      return wall.is_ring(i);
+    }
+
+    bool
+    has_ledges() const override
+    {
+      return wall.has_ledges();
+    }
+
+    double
+    left_at_top() const override
+    {
+      return wall.uppermost(plain_wall()).left;
     }
 
     bool
@@ -185,20 +247,29 @@ namespace CaissonMPM
     contains(const Point &p, const double travel) const override
     {
       const Point start(p[0], p[1] + travel);
-      if (has_lid() && start[0] < left() + round_off)
-        return start[1] < top() - round_off &&
-               start[1] > lower_face_of_lid() + round_off;
-      return is_within_extent(start) &&
-             start[1] > lower_surface(start[0]) + round_off;
+      if (has_lid() && start[0] < left_at_top() + round_off &&
+          start[1] < top() - round_off &&
+          start[1] > lower_face_of_lid() + round_off)
+        return true;
+      if (is_within(start, part(0)))
+        return start[1] > lower_surface(start[0]) + round_off;
+      for (unsigned int i = 1; i < n_parts(); ++i)
+        if (is_within(start, part(i)))
+          return true;
+      return false;
     }
 
     NamedNumbers
     dimensions() const override
     {
-      return {{"diameter_m", outer_diameter},
-              {"wall_thickness_m", wall_thickness},
-              {"skirt_length_m", skirt_length},
-              {"initial_penetration_m", initial_penetration}};
+      NamedNumbers result = {{"diameter_m", outer_diameter},
+                             {"wall_thickness_m", wall_thickness},
+                             {"skirt_length_m", skirt_length},
+                             {"initial_penetration_m", initial_penetration}};
+      if (!radii_of_tip().empty())
+        result.emplace_back("edge_of_tip", edge_of_tip);
+      wall.add_dimensions(result);
+      return result;
     }
 
   private:
@@ -207,6 +278,34 @@ namespace CaissonMPM
       triangular,
       flat
     };
+
+    /** Without steps and rings. */
+    BodyPart
+    plain_wall() const
+    {
+      return {left(), right(), bottom(), top()};
+    }
+
+    bool
+    has_edge_in_middle() const
+    {
+      return tip == Tip::triangular && edge_of_tip == .5;
+    }
+
+    /** Of the triangular tip, at this radius. Units: m. */
+    double
+    edge() const
+    {
+      return (1. - edge_of_tip) * left() + edge_of_tip * right();
+    }
+
+    /** Of the tip, at the side that is farther from the edge. Units: m. */
+    double
+    height_of_faces() const
+    {
+      return slope() *
+             (std::max(edge_of_tip, 1. - edge_of_tip) * wall_thickness);
+    }
 
     /** Of the tip's faces. */
     double
@@ -225,11 +324,20 @@ namespace CaissonMPM
     void
     check_tip() const
     {
-      if (tip == Tip::triangular && cells_across_wall() % 2 == 1)
+      if (has_edge_in_middle() && cells_across_wall() % 2 == 1)
         throw BadInput(
           "Rigid body/Cells across the wall = " + to_text(cells_across) +
           " puts no node at the edge of the triangular tip. Use "
           "an even number, or Tip = flat.");
+      if (const double off =
+            std::min(edge_of_tip, 1. - edge_of_tip) * wall_thickness;
+          tip == Tip::triangular && off > 0. && off < .5 * cell_width())
+        throw BadInput("Rigid body/Edge of the tip = " + to_text(edge_of_tip) +
+                       " is " + to_text(off) +
+                       " m from a face of the wall, and cells are " +
+                       to_text(cell_width()) +
+                       " m wide. Set it to 0 or 1, or increase Cells across "
+                       "the wall.");
       if (tip_height() >= skirt_length)
         throw BadInput("Rigid body/Tip angle = " + to_text(tip_angle) +
                        " degrees makes the tip longer than Skirt length = " +
@@ -242,9 +350,11 @@ namespace CaissonMPM
     unsigned int cells_across        = 2;
     Tip          tip                 = Tip::triangular;
     double       tip_angle           = 45.;
+    double       edge_of_tip         = 0.5;
     double       shoulder_bevel      = 0.5;
     double       lid_thickness       = 0.;
     double       initial_penetration = 0.5;
+    CaissonWall  wall;
   };
 } // namespace CaissonMPM
 

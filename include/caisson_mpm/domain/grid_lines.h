@@ -181,7 +181,14 @@ namespace CaissonMPM
     bool
     is_lid_cell(const GlobalCell cell) const
     {
-      return is_body_cell(cell) && column_of(cell) < body_column_begin;
+      return lid.contains(column_of(cell), row_of(cell));
+    }
+
+    /** Return whether a cell is one of the lowest of the body. */
+    bool
+    is_lowest_cell(const GlobalCell cell) const
+    {
+      return is_body_cell(cell) && row_of(cell) == body_row_begin;
     }
 
     /**
@@ -305,6 +312,16 @@ namespace CaissonMPM
     /** Return where the mesh has the left and right side of the body. */
     std::pair<double, double>
     sides_of_body(const BodyShape &body) const;
+    /** Return the lowest face above the tip that must be level. Units: m. */
+    static double
+    lowest_ledge(const BodyShape &body);
+    /** Throw BadInput where steps and rings of the wall need smaller cells than
+     * those of this size, which an entry sets, between lines at a distance. */
+    static void
+    check_parts(const BodyShape   &body,
+                const double       cell,
+                const double       line_spacing,
+                const std::string &entry);
     Spacing
     spacing_in_r(const BodyShape &body) const;
     Spacing
@@ -344,6 +361,8 @@ namespace CaissonMPM
     /** Find the lines at the body, and its lower surface. */
     void
     find_body(const BodyShape &body);
+    void
+    find_dips(const BodyShape &body);
     void
     distort_columns();
     void
@@ -459,13 +478,27 @@ namespace CaissonMPM
     std::vector<std::vector<double>> node_shift;
     double                           zone_bottom = 0., zone_top = 0.;
     double                           travel_to_hold = 0., uplift_to_hold = 0.;
-    // the body in line numbers [begin, end), and its lower surface by column
-    unsigned int        body_column_begin = 0, body_column_end = 0;
-    unsigned int        body_row_begin = 0, body_row_end = 0;
-    unsigned int        lid_row_begin    = 0;  // body_row_end without a lid
-    double              expanding_radius = 0.; // of a cylinder, else 0
-    double              shoulder = 0., decay_below = 1., decay_above = 1.;
-    std::vector<double> dip; // [columns] depth of the tip below the shoulder
+    /** Columns and rows [begin, end). */
+    struct Range
+    {
+      unsigned int column_begin = 0, column_end = 0;
+      unsigned int row_begin = 0, row_end = 0;
+
+      bool
+      contains(const unsigned int column, const unsigned int row) const
+      {
+        return column >= column_begin && column < column_end &&
+               row >= row_begin && row < row_end;
+      }
+    };
+    // the parts of the body, the first of which is at the tip, and its lid
+    std::vector<Range> body_ranges;
+    Range              lid;
+    unsigned int       body_column_begin = 0, body_column_end = 0; // at the tip
+    unsigned int       body_row_begin   = 0;
+    double             expanding_radius = 0.; // of a cylinder, else 0
+    double             shoulder = 0., decay_below = 1., decay_above = 1.;
+    std::vector<double> dip; // [columns] of the rows below the shoulder
   };
 } // namespace CaissonMPM
 

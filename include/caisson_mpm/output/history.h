@@ -24,6 +24,7 @@ namespace CaissonMPM
     double        outer          = 0.;
     double        top            = 0.;
     double        lid            = 0.;
+    double        ring           = 0.;
     double        cavity         = 0.; // mean pressure on a cylinder
     double        total          = 0.;
     double        with_water     = 0.;
@@ -45,7 +46,7 @@ namespace CaissonMPM
   /** What a scene has; columns of what it lacks are left out. */
   struct SceneParts
   {
-    bool body = true, caisson = true, expanding_body = true;
+    bool body = true, caisson = true, ledges = true, expanding_body = true;
     bool prescribed_soil = true, splitting = true, water_on_body = true;
   };
 

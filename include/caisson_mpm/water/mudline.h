@@ -64,11 +64,12 @@ namespace CaissonMPM
       return top[cell];
     }
 
-    /** Return where the column of a cell ends. */
+    /** Return where the column of a cell ends, or the part of it above a step
+     * of the wall. */
     Side
     side_of(const unsigned int cell) const
     {
-      return sides[first_column[cell]];
+      return sides_of_cells[cell];
     }
 
     /** Return the mean height of the soil in the columns of a side, by area.
@@ -76,8 +77,8 @@ namespace CaissonMPM
     double
     mean_height(const Side side) const;
 
-    /** Return the height of the soil beside the inner or the outer wall. Units:
-     * m. */
+    /** Return the height of the soil beside the inner wall, or the rings there,
+     * or beside the outer one. Units: m. */
     double
     height_at_wall(const Side side) const;
 
@@ -105,6 +106,13 @@ namespace CaissonMPM
       double       height, size, volume;
     };
 
+    /** Return the side of a cell above the tip in a column of the body: soil
+     * may be on a step of the wall. */
+    static Side
+    side_above_step(const GridLines &lines,
+                    const BodyShape &body,
+                    const GlobalCell cell);
+
     std::vector<Top>
     find_tops(const BackgroundGrid &grid, const MaterialPoints &points) const;
     void
@@ -115,12 +123,14 @@ namespace CaissonMPM
 
     // of the columns of the lattice [n_columns]
     std::vector<Side>   sides;
-    std::vector<double> left, width; // m
-    std::vector<double> heights;     // m; of no use at the body
-    std::vector<double> cell_height; // m, of the cell at the mudline
+    unsigned int        at_inner_wall = 0; // column beside wall and rings
+    std::vector<double> left, width;       // m
+    std::vector<double> heights;           // m; of no use at the body
+    std::vector<double> cell_height;       // m, of the cell at the mudline
     bool                axisymmetric = true;
     double              tolerance    = 0.; // of heights, m
     // [n_cells]
+    std::vector<Side>          sides_of_cells;
     std::vector<unsigned int>  first_column, n_columns;
     std::vector<double>        filled_;
     std::vector<unsigned char> top, is_below_body;

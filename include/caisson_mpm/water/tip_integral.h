@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The integral of a pressure over the tip of the body.
+// The integral of a pressure over the tip of the body, and over the faces of
+// steps and rings of its wall.
 #ifndef caisson_mpm_water_tip_integral_h
 #define caisson_mpm_water_tip_integral_h
 
@@ -13,7 +14,12 @@
 
 namespace CaissonMPM
 {
-  /** Integrates over the tip, or over the mantle of a cylinder. */
+  /**
+   * Integrates over the tip, or over the mantle of a cylinder. The pressure
+   * under the lid acts on the area inside the tip, and on faces of rings and
+   * steps within: these add what the soil at them has besides, less what it has
+   * on faces that look up.
+   */
   class TipIntegral
   {
   public:
@@ -24,12 +30,22 @@ namespace CaissonMPM
            const BodyShape      &shape,
            const Mudline        &mudline);
 
-    /** Integrate value(cell, corner). Collective. */
-    template <typename Function>
+    /** Integrate value(cell, corner), which is @p in_plug in the water under
+     * the lid, over the tip, and over the share(cell) of a step or ring that
+     * soil covers. Collective. */
+    template <typename Function, typename Share>
     void
-    integrate(const BackgroundGrid &grid, const Function &value)
+    integrate(const BackgroundGrid &grid,
+              const Function       &value,
+              const double          in_plug,
+              const Share          &share)
     {
-      std::array<double, 2> sums = {{0., 0.}};
+      std::array<double, 3> sums = {{0., 0., 0.}};
+      for (const Ledge &ledge : ledges)
+        for (unsigned int i = 0; i < 2; ++i)
+          sums[2] += share(ledge.cell) * ledge.areas[i] *
+                     (value(ledge.cell, ledge.first_corner + i) -
+                      (ledge.is_inside ? in_plug : 0.));
       for (const unsigned int cell : cells)
         {
           const auto area = areas_at_tip(grid, cell);
@@ -43,8 +59,9 @@ namespace CaissonMPM
         dealii::ArrayView<const double>(sums.data(), sums.size()),
         grid.communicator(),
         dealii::ArrayView<double>(sums.data(), sums.size()));
-      value_ = grid.circumference() * sums[0];
-      area_  = grid.circumference() * sums[1];
+      at_tip_ = grid.circumference() * sums[0];
+      value_  = grid.circumference() * (sums[0] + sums[2]);
+      area_   = grid.circumference() * sums[1];
     }
 
     /** The integral. Units: those of the integrand times m2. */
@@ -54,7 +71,14 @@ namespace CaissonMPM
       return value_;
     }
 
-    /** The area, looking down. Units: m2. */
+    /** The integral over the tip alone. */
+    double
+    at_tip() const
+    {
+      return at_tip_;
+    }
+
+    /** The area of the tip, looking down. Units: m2. */
     double
     area() const
     {
@@ -67,9 +91,22 @@ namespace CaissonMPM
     std::array<double, 2>
     areas_at_tip(const BackgroundGrid &grid, const unsigned int cell) const;
 
+    /** A cell of this rank below or above a face of a step or ring. */
+    struct Ledge
+    {
+      unsigned int          cell, first_corner;
+      bool                  is_inside; // the wall
+      std::array<double, 2> areas;     // negative for a face that looks up
+    };
+    void
+    find_ledges(const BackgroundGrid &grid,
+                const BodyShape      &shape,
+                const Mudline        &mudline);
+
     std::vector<unsigned int> cells;
+    std::vector<Ledge>        ledges;
     bool                      of_cylinder = false;
-    double                    value_ = 0., area_ = 0.;
+    double                    value_ = 0., at_tip_ = 0., area_ = 0.;
   };
 } // namespace CaissonMPM
 

@@ -139,6 +139,9 @@ def caisson_of(run: Results) -> list[Item]:
     ):
         if length is not None:
             found.append(Item(name, run.shown.length(float(length))))
+    for name in ("Wall steps", "Rings"):
+        if text := entry_of(run, f"{BODY}/{name}"):
+            found.append(Item(f"{name} (m)", text))
     tip = math.pi / 4 * outer**2 - plug_area(scene)
     found += [
         Item("Area inside, of the lid", f"{plug_area(scene):.4g} m²"),

@@ -2,7 +2,8 @@
 """A section through caisson and ground, to scale and with dimensions, as SVG."""
 import html
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
@@ -145,6 +146,20 @@ def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
             drawing.text(drawing.x(0), y, words, "middle")
 
 
+def draw_rings(
+    drawing: Drawing, scene: Mapping[str, Any], inside: float, depth: float
+) -> None:
+    """Draw the rings inside the wall, whose inner face is at this radius (m), with the
+    tip at a depth (m)."""
+    number = 1
+    while place := scene.get(f"ring_{number}_above_tip_m"):
+        width, height = (scene[f"ring_{number}_{x}_m"] for x in ("width", "height"))
+        low = depth - place
+        for left in (-inside, inside - width):
+            drawing.box("steel", left, low - height, left + width, low)
+        number += 1
+
+
 def of_run(run: Results, depth: float, rest: float | None) -> str:
     """Return the section with the tip at a depth (m), and where the caisson rests by
     its weight (m); nothing for other bodies than caissons."""
@@ -162,6 +177,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     for left in (-radius, radius - thick):
         drawing.wall(left, lid, thick, tip_of(run, depth))
     drawing.box("steel", -radius, lid - thick, radius, lid)
+    draw_rings(drawing, scene, radius - thick, depth)
     y, x = drawing.y(lid - thick) - 8, (drawing.x(-radius), drawing.x(radius))
     drawing.line("dimension", x[0], y, x[1], y)
     for end in x:
