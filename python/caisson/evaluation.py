@@ -126,8 +126,8 @@ def changes_of_suction(history: Table) -> list[float]:
     again, and so on. A change for a short way does not count, but for one at the end.
     """
     depth, acts = history[DEPTH], history["suction_Pa"] > 0
-    least, begins = LEAST_HELD * np.ptp(depth), np.flatnonzero(np.diff(acts)) + 1
-    for first, end in zip([0, *begins], [*begins, len(depth)]):
+    least, starts = LEAST_HELD * np.ptp(depth), np.flatnonzero(np.diff(acts)) + 1
+    for first, end in zip([0, *starts], [*starts, len(depth)]):
         is_last = end == len(depth) and acts[first]
         if depth[end - 1] - depth[max(first - 1, 0)] < least and not is_last:
             acts[first:end] = acts[first - 1] if first else False
