@@ -25,7 +25,7 @@ def client_of(address: str) -> Any:
             f"--dask: no scheduler answers at {address}; start one by dask-scheduler,"
             " and workers by dask-worker"
         ) from error
-    if not client.scheduler_info()["workers"]:
+    if not client.nthreads():
         client.close()
         raise StudyError(
             f"--dask: the scheduler at {address} has no worker; start some by"
@@ -55,9 +55,7 @@ def execute(
     from distributed import as_completed
 
     with client:
-        workers = sum(
-            w["nthreads"] for w in client.scheduler_info()["workers"].values()
-        )
+        workers = sum(client.nthreads().values())
         print(f"runs to do: {len(runs)}, {workers} at a time by Dask", flush=True)
         waiting = {
             client.submit(run_there, run, again, limit, pure=False): run

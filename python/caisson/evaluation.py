@@ -36,6 +36,7 @@ FRICTION_RISE = 5e-3  # m, which mobilizes friction
 # of the rise to the largest pull: how much further a capacity is followed, and the
 # part of it at which the pull is nearly reached
 FURTHER, BEFORE, NEARLY = 0.2, 0.7, 0.93
+LEAST_HELD = 0.02  # of all of the way, over which suction must act to count
 LITTLE = 0.1  # of a pull
 NO_CAPACITY = "the pull neither fell nor levelled off: it is not the capacity"
 
@@ -120,13 +121,33 @@ def rows_of(table: Table) -> list[dict[str, float]]:
     return [{k: v for k, v in row.items() if np.isfinite(v)} for row in rows]
 
 
+def changes_of_suction(history: Table) -> list[float]:
+    """Return the penetrations (m) from which on suction acts, acts no longer, acts
+    again, and so on. A change for a short way does not count, but for one at the end.
+    """
+    depth, acts = history[DEPTH], history["suction_Pa"] > 0
+    least, starts = LEAST_HELD * np.ptp(depth), np.flatnonzero(np.diff(acts)) + 1
+    for first, end in zip([0, *starts], [*starts, len(depth)]):
+        is_last = end == len(depth) and acts[first]
+        if depth[end - 1] - depth[max(first - 1, 0)] < least and not is_last:
+            acts[first:end] = acts[first - 1] if first else False
+    changes = np.flatnonzero(np.diff(acts))
+    begins = [float(depth[0])] if acts[0] else []
+    return begins + [float(depth[i]) for i in changes]
+
+
 def rest_of_run(history: Table) -> float | None:
-    """Return the penetration from which on suction is never 0 again, in m; None
-    where it is 0 at the end, or acts from the first row on."""
-    without = np.flatnonzero(history["suction_Pa"] <= 0)
-    if len(without) == 0 or without[-1] in (0, len(history["suction_Pa"]) - 1):
-        return None
-    return float(history[DEPTH][without[-1]])
+    """Return the penetration by weight alone (m), where suction begins; None where
+    there is none, or where it acts from the first row on."""
+    changes = changes_of_suction(history)
+    return changes[0] if changes and changes[0] > history[DEPTH][0] else None
+
+
+def sinks_on(history: Table) -> list[tuple[float, float]]:
+    """Return the ways (m) below the penetration by weight over which the weight
+    suffices again: there the caisson sinks on by itself."""
+    changes = [*changes_of_suction(history), float(history[DEPTH][-1])]
+    return list(zip(changes[1::2], changes[2::2]))
 
 
 def pump_limit(run: Results) -> float | None:

@@ -190,6 +190,15 @@ class Page(WithPage):
         self.assertNotIn("low resistance", page)
         self.assertEqual(plotted.range_of(run, "total_force_N"), None)
 
+    def test_stopped(self) -> None:
+        """A run that was stopped says nothing of its resistance."""
+        run = self.leave_band()
+        high = member_of(run.directory, HIGH)
+        leave_run(high, {**SUMMARY, "entries": self.PUMP, "status": "stopped"})
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        words = "with high resistance not known: its run was stopped at 4.5 m."
+        self.assertTrue(words in page)
+
     def test_depth_out_of_reach(self) -> None:
         """Before the start, and below the end."""
         run = self.leave_band()

@@ -88,10 +88,9 @@ class Governing(WithPage):
         """At the depth h the plug bears 30 (1 + 0.02 h) + 4 h / 9.92 kPa over 1.5: 20 +
         0.669 h, which is 10 (h - 1.5) at h = 3.75 m; and 2 as the factor leaves 15 +
         0.502 h, at 3.16 m."""
-        for factors, factor, depth in (
-            ({}, "1.5", 3.751),
-            ({"Design/Factor on plug failure": "2"}, "2", 3.158),
-        ):
+        given = {"Design/Factor on plug failure": "2"}
+        for factor, depth in (("1.5", 3.751), ("2", 3.158)):
+            factors = given if factor == "2" else {}
             run = self.clay([CLAY], factors)
             words = f"reverse bearing of the plug, factor {factor}"
             self.check(run, limits.REVERSE_BEARING, depth, words)

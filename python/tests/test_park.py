@@ -112,7 +112,9 @@ class Dask(WithRuns):
         runs.append(self.run_of("d"))
         runs[-1].run.entries["Soil/Nothing"] = 1
         with (
-            LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster,
+            LocalCluster(
+                n_workers=2, threads_per_worker=1, dashboard_address=None
+            ) as cluster,
             contextlib.redirect_stdout(io.StringIO()) as said,
         ):
             address = cluster.scheduler_address

@@ -19,7 +19,9 @@ class Remedies(WithPage):
     """10 kPa for each meter below 1.5 m, on 77.29 m2 under 1 MN; the resistance has 2
     parts of the tip and 1 of each wall; the pump has 20 kPa, which end at 3.5 m."""
 
-    def run_of(self, scene: dict[str, Any] = {}, **entries: str) -> Results:
+    def run_of(
+        self, scene: dict[str, Any] = {}, entries: dict[str, str] = {}
+    ) -> Results:
         """Leave a run with a skirt of 5 m, and return it."""
         known = {**SCENE, "skirt_length_m": 5.0, **scene}
         summary = {**SUMMARY, "entries": {**PUMP, **entries}, "scene": known}
@@ -65,7 +67,7 @@ class Remedies(WithPage):
 
     def test_wall_that_suffices(self) -> None:
         """It is the thickest one below the present that does, by mm."""
-        run = self.run_of(**{"Design/Factor on shell buckling": "0.1"})
+        run = self.run_of(entries={"Design/Factor on shell buckling": "0.1"})
         rows, planned = self.rows(run), Planned(run, self.part(run), 4.5)
         new, old = rows["wall"].split(" mm instead of ")
         self.assertEqual(old, "40 mm")
@@ -76,7 +78,7 @@ class Remedies(WithPage):
     def test_none_suffices(self) -> None:
         """8 kPa of the pump are too few for any wall, and for any diameter; the page
         has what would be gained."""
-        run = self.run_of(**{"Water/Largest suction": "8e3"})
+        run = self.run_of(entries={"Water/Largest suction": "8e3"})
         rows = self.rows(run)
         self.assertTrue(rows["wall"].startswith("none from 10 to 80 mm suffices"))
         self.assertIn("32 mm would reach 2.", rows["wall"])
@@ -85,7 +87,7 @@ class Remedies(WithPage):
 
     def test_pump_alone(self) -> None:
         """20 kPa of piping stop the caisson whatever the pump."""
-        run = self.run_of(**{"Design/Factor on piping": "3"})
+        run = self.run_of(entries={"Design/Factor on piping": "3"})
         words = self.rows(run)["pump"]
         self.assertTrue(words.startswith("no pump alone: piping, Houlsby & Byrne, fac"))
 
@@ -100,7 +102,7 @@ class Remedies(WithPage):
     def test_nothing_to_mend(self) -> None:
         """A feasible scene has no table, and one with another layer no amounts."""
         entries = {"Water/Largest suction": "200e3"}
-        self.assertEqual(self.rows(self.run_of(**entries)), {})
+        self.assertEqual(self.rows(self.run_of(entries=entries)), {})
         layers = [*SCENE["layers"], {**SCENE["layers"][0], "top_depth_m": 4}]
         rows = self.rows(self.run_of({"layers": layers}))
         self.assertEqual(rows["weight, wall, diameter, pump"], remedies.NOT_KNOWN)
@@ -109,7 +111,7 @@ class Remedies(WithPage):
         """25 mm buckle above 4.5 m by a factor of 5; a thicker wall does not."""
         entries = {"Design/Factor on shell buckling": "5"}
         entries["Water/Largest suction"] = "90e3"
-        run = self.run_of({"wall_thickness_m": 0.025}, **entries)
+        run = self.run_of({"wall_thickness_m": 0.025}, entries)
         self.assertEqual(self.part(run).governing(-1), limits.SHELL)
         rows, planned = self.rows(run), Planned(run, self.part(run), 4.5)
         self.assertEqual(rows["wall"], "27 mm instead of 25 mm")

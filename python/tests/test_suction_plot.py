@@ -203,6 +203,13 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(evaluation.rest_of_run(history) or 0, REST, delta=0.14)
         history["suction_Pa"][0] = 5.0  # not for good
         self.assertAlmostEqual(evaluation.rest_of_run(history) or 0, REST, delta=0.14)
+        self.assertEqual(evaluation.sinks_on(history), [])
+        depth = history["penetration_m"]
+        history["suction_Pa"][(depth > REST + 0.5) & (depth < REST + 1)] = 0.0
+        self.assertAlmostEqual(evaluation.rest_of_run(history) or 0, REST, delta=0.14)
+        ((top, bottom),) = evaluation.sinks_on(history)
+        self.assertAlmostEqual(top, REST + 0.5, delta=0.14)
+        self.assertAlmostEqual(bottom, REST + 1, delta=0.14)
         history["suction_Pa"][1:] = 5.0
         self.assertIsNone(evaluation.rest_of_run(history))
         history["suction_Pa"][:] = 0.0
@@ -255,8 +262,8 @@ class MadeUpRun(unittest.TestCase):
         layer["wall_adhesion_Pa"] = 20e3
         run = self.write(synthetic(), layers=[layer])
         lines = self.drawn(theory.site_of(run), layers=[layer])
-        plug = "reverse bearing of the plug, factor 1.5"
-        for name in ("required, Strength of clay", plug):
+        limit = "reverse bearing of the plug, factor 1.5"
+        for name in ("required, Strength of clay", limit):
             self.assertIn(name, lines)
         design.write(self.path / "design.csv", run)
         row = self.design()[25]  # 3 m

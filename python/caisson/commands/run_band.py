@@ -107,5 +107,7 @@ def main(
             draw(runs[estimate].run.directory, None, estimate == BEST)
     for member in runs.values():
         if member.trouble:
-            print(f"run: {member.name}: {member.trouble}", file=sys.stderr)
+            has_checkpoint = (member.run.directory / CHECKPOINT).is_file()
+            hint = "; --restart resumes it" if has_checkpoint else ""
+            print(f"run: {member.name}: {member.trouble}{hint}", file=sys.stderr)
     return max(Status.FAILURE if m.status is None else m.status for m in runs.values())

@@ -12,6 +12,7 @@ from caisson import disk
 from caisson.log.expected import Expected
 from caisson.log.forecast import Bins, Forecast
 from caisson.log.measured import Log, resistance_of
+from caisson.plot.suction import WHITE
 from caisson.plot.small import in_units, over_depth, with_note
 
 GRAY, RED, BLUE, ORANGE = "0.45", "#c0392b", "#2166ac", "#d95f02"
@@ -35,6 +36,13 @@ def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
     if len(seen) and seen.min() < FAR * most:
         axes.plot(limit, depth, color=RED, lw=1.8, label=f"allowable: {name}")
         most = max(most, min(float(seen.max()), FAR * most))
+    elif len(seen):
+        factor, unit = expected.run.shown.factor("kPa"), expected.run.shown.name("kPa")
+        ends = " to ".join(
+            dict.fromkeys(f"{factor * x():.0f}" for x in (seen.min, seen.max))
+        )
+        text = f"allowable: {ends} {unit} ({name})"
+        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlim(0, MARGIN * most)
     axes.set_ylim(1.02 * max(expected.planned, depth[-1]), 0)
     over_depth(axes, "suction (kPa)", "penetration of the skirt tip (m)")

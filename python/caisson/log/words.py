@@ -65,13 +65,11 @@ def of_band(expected: Expected, bins: Bins) -> str:
     place, last = expected.run.shown.place, float(bins.depth[-1])
     parts = []
     for name, begin, end in outside(expected, bins):
-        way = f"from {place(begin, 1)} on" if end == last else f"from {place(begin, 1)}"
-        parts.append(
-            f"{way}{'' if end == last else f' to {place(end, 1)}'} {name} estimate"
-        )
+        way = "on" if end == last else f"to {place(end, 1)}"
+        parts.append(f"from {place(begin, 1)} {way} {name} estimate")
     if not parts:
         return f"The log is within the band, down to {place(last)}."
-    return f"The log is {' and '.join(parts)}; it ends at {place(last)}."
+    return f"The log, down to {place(last)}, is {' and '.join(parts)}."
 
 
 def of_fit(fit: Fit) -> str:
@@ -94,7 +92,10 @@ def of_forecast(expected: Expected, forecast: Forecast) -> str:
     low, high = (f"{factor * side[-1]:.3g}" for side in (forecast.low, forecast.high))
     needs = f"at {low} to {high} {unit}" if forecast.high[-1] > 0 else "by its weight"
     if first is None:
-        return f"Forecast: it reaches {place(end)} {needs}."
+        limit = np.interp(forecast.depth, expected.depth, expected.allowable)
+        share = 100 * float(np.max(forecast.high / limit))
+        of_limit = f", at most {share:.0f} % of the allowable one" if share > 0 else ""
+        return f"Forecast: it reaches {place(end)} {needs}{of_limit}."
     likely = f", most likely at {place(middle, 1)}" if middle is not None else ""
     if last is None:
         return (

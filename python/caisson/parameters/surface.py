@@ -232,7 +232,7 @@ def in_words(refusal: Refusal) -> str:
     if refusal.wrong is None and refusal.refused in (0, refusal.runs):
         bound = "at most" if refusal.refused == 0 else "at least"
         return f"{what}: {runs}; a probability of {bound} {share:.0f} % (95 % sure)"
-    left = ""
+    left = "; one of a kind is too few to check it by leaving it out"
     if refusal.wrong is not None:
         left = f"; left out in turn, {refusal.wrong} of the runs are predicted wrong"
     return f"{what}: probability {share:.0f} %; {runs}{left}"

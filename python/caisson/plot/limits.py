@@ -130,8 +130,8 @@ def wall_of(run: Results) -> shell.Wall | None:
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
     """Return the suction (kPa) at which the exit gradient of the run becomes critical,
-    at depths [n], nan before there is suction, and in clay, where nothing flows. The
-    flow is linear in the suction."""
+    at depths [n], nan where there is no suction, and where hardly any water flows,
+    as with the tip in clay. The flow is linear in the suction."""
     history = run.history
     if "critical_gradient" not in history:
         return np.full(len(at), np.nan)
@@ -143,7 +143,9 @@ def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
         return np.full(len(at), np.nan)
     found = suction[pulled] / share[pulled] / 1e3
     means = curves.smoothed_at(depth[pulled], found, at)
-    return np.where(at >= depth[pulled][0], means, np.nan)
+    away = np.abs(at[:, np.newaxis] - depth[pulled]).min(axis=1)
+    near = (away <= curves.window_of(np.ptp(depth))) & (at >= depth[pulled][0])
+    return np.where(near, means, np.nan)
 
 
 def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:

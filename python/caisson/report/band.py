@@ -32,6 +32,8 @@ def outcome_of(member: Results, shown: Units, best: Verdict) -> str:
         reason = f" ({said.reason})" if said.reason != best.reason else ""
         return f"to {shown.place(said.end, 1)}{reason}"
     place = shown.place(float(found.depth[-1]))
+    if member.summary.get("status", "finished") != "finished":
+        return f"not known: its run was stopped at {place}"
     if not member.scene.get("submerged_weight_N"):
         total = found.forces["total_force_N"]
         total = found.with_water if len(found.with_water) else total

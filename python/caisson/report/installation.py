@@ -18,6 +18,7 @@ from caisson.evaluation import (
     GRADIENT,
     at_depths,
     rest_of_run,
+    sinks_on,
 )
 from caisson.paths import INSTALLED
 from caisson.plot import design, limits
@@ -304,6 +305,20 @@ def rest_in_words(run: Results, rest: float) -> str:
     return run.shown.depth(rest)
 
 
+def sinks_on_in_words(run: Results) -> str:
+    """Return where the weight suffices again below the penetration by weight."""
+    shown, end = run.shown, run.feasible_to or np.inf
+    ways = [
+        f"{shown.place(top)} to {shown.place(bottom)}"
+        for top, bottom in sinks_on(run.history)
+        if top < end
+    ]
+    if not ways:
+        return ""
+    where = " and from ".join(ways)
+    return f"the weight suffices again from {where}: the caisson may run down there"
+
+
 def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
     """Return (name, value, remark) of what matters beside the verdict."""
     cards: list[tuple[str, ...]] = []
@@ -321,6 +336,8 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, .
         return cards + pump_cards(run, found, rate)
     if found.rest is not None:
         remark = f"under {shown.force(weight)} in water" if weight else ""
+        if ways := sinks_on_in_words(run):
+            remark += f"; {ways}"
         place = rest_in_words(run, found.rest)
         cards.append(("Self-weight penetration", place, remark))
     return cards + pump_cards(run, found, rate)

@@ -197,6 +197,8 @@ def lines_of(run: Results) -> list[str]:
         place = installation.rest_in_words(run, rest)
         at = "" if place.startswith("at most") else "at "
         by_weight = f"Rests by weight {at}{place}."
+        if ways := installation.sinks_on_in_words(run):
+            by_weight += f" {ways[0].upper()}{ways[1:]}."
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
