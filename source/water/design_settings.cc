@@ -70,7 +70,7 @@ namespace CaissonMPM
        "the report knows.",
        "Pa",
        1.},
-      {"Youngs modulus of steel",
+      {"Steel Youngs modulus",
        210e9,
        "Young's modulus of the wall, of which only the check for buckling in "
        "the report knows.",

@@ -66,7 +66,7 @@ ABSENT = {  # kind: why a run has no limit of it
 }
 STEEL = {  # entries of section Design: default
     "Steel yield strength": 355e6,
-    "Youngs modulus of steel": 210e9,
+    "Steel Youngs modulus": 210e9,
     "Fixity depth over diameter": 0.5,
     "Ring stiffener spacing": 0.0,
 }
