@@ -62,6 +62,8 @@ class Vessel(unittest.TestCase):
         names = {"": 0.0, "_low": -half, "_high": half} if half else {"": 0.0}
         for name, change in names.items():
             entries = {"Time/End penetration": f"{END:g}"}
+            entries["Design/Steel yield strength"] = "1e12"  # water boils first
+            entries["Design/Youngs modulus of steel"] = "1e13"
             summary = {"title": "made up", "scene": SCENE, "entries": entries}
             history = history_of(BEST * np.exp(change), boiling)
             write_run(self.path / f"own{name}", history, summary)

@@ -28,7 +28,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-13";
+    const std::string format_name = "caisson_mpm-checkpoint-14";
 
     // what a rank has in memory at a time besides its own
     constexpr unsigned long rows_per_piece = 20000;

@@ -140,6 +140,8 @@ namespace CaissonMPM
                              const CellMap<Number>   &map,
                              LaneSums<Number, 16>    &internal)
       {
+        if (!step.integration.has_minimum_nodal_mass)
+          return;
         Number stiffness[4];
         find_full_stiffness(map,
                             step.grid.axisymmetric,
@@ -471,8 +473,7 @@ namespace CaissonMPM
             if (step.pore_pressure != nullptr)
               {
                 add_cell_pressure(step, group, map, internal);
-                if (step.integration.has_minimum_nodal_mass)
-                  add_stiffness_of_water(step, group, map, internal);
+                add_stiffness_of_water(step, group, map, internal);
               }
             contribution.add_forces(internal);
 
