@@ -49,7 +49,8 @@ def rows_of(
         where = f" at {own.depth:g} m" if math.isfinite(own.depth) else ""
         counted = of_runs(runs, other)
         for i, name in enumerate(NAMES):
-            share = own.quantiles[i] / other.quantiles[i] - 1
+            both = own.quantiles[i], other.quantiles[i]
+            share = 0.0 if both[0] == both[1] else both[0] / both[1] - 1
             worst = max(worst, abs(share))
             numbers = (own.quantiles[i], other.quantiles[i], counted[i], own.error)
             cells = [f"{x * scale:.3g}" for x in numbers]

@@ -75,6 +75,15 @@ class MadeUp(unittest.TestCase):
         values[:11] = math.nan
         self.assertEqual(surface.spread_of("s", 1.0, few, values, everywhere), None)
 
+    def test_no_quantile_of_what_is_refused(self) -> None:
+        """Where 10 % of all soil are refused there is no P95, but a P50."""
+        few, everywhere = points(20, 4), points(500, 97)
+        found = surface.spread_of("s", 1.0, few, suction(few), everywhere, reached=0.9)
+        assert found is not None
+        self.assertEqual(found.quantiles[2], math.inf)
+        middle = np.quantile(suction(everywhere), 0.5)
+        self.assertAlmostEqual(found.quantiles[1] / middle, 1, delta=0.02)
+
     def test_refusal(self) -> None:
         """Where the suction is above a limit, in 15 % of all soil; where no run is
         refused it is a bound."""

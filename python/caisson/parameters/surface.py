@@ -142,17 +142,24 @@ def spread_of(
     values: np.ndarray,
     everywhere: np.ndarray,
     least: float = -math.inf,
+    reached: float = 1.0,
 ) -> Spread | None:
     """Return P5, P50 and P95 of values [n_runs], nan where a run has none, over the
     points [n_samples, n_parameters] everywhere; None of too few. least: below it a
-    value counts as that."""
+    value counts as that; reached: the share of all soil in which there is a value, the
+    lower ones, beyond which a quantile is infinite."""
     known = np.isfinite(values)
     if known.sum() < max(FEWEST, points.shape[1] + 2):
         return None
     surface, model, error = fitted(points[known], values[known])
     found = np.maximum(surface.predict(everywhere), least)
-    low, middle, high = map(float, np.quantile(found, SHARES))
-    return Spread(name, depth, (low, middle, high), error, int(known.sum()), model)
+    ends = [
+        float(x) if s <= reached else math.inf
+        for s, x in zip(SHARES, np.quantile(found, SHARES))
+    ]
+    return Spread(
+        name, depth, (ends[0], ends[1], ends[2]), error, int(known.sum()), model
+    )
 
 
 def planned_of(outcomes: Outcomes) -> float:
@@ -165,12 +172,12 @@ def planned_of(outcomes: Outcomes) -> float:
     return float(outcomes.grid[-1])
 
 
-def is_refused(outcome: Outcome, planned: float) -> bool:
-    """Return whether a run does not reach the planned penetration (m) feasibly."""
+def is_refused(outcome: Outcome, depth: float) -> bool:
+    """Return whether a run does not reach a depth (m) feasibly."""
     assert outcome.history is not None
     ended = outcome.run.results.scene.get("infeasible") or {}
     reached = ended.get("penetration_m", float(outcome.history["penetration_m"].max()))
-    return bool(reached < planned * (1 - 2e-3))
+    return bool(reached < depth * (1 - 2e-3))
 
 
 def refusal_of(
@@ -217,11 +224,11 @@ def of_study(outcomes: Outcomes) -> Surfaces | None:
     found = [spread_of(REST, math.nan, points, rests, everywhere, 0.0)]
     least = 0.0 if has_suction else -math.inf
     for depth, values in zip(depths, outcomes.matrix(NEARLY * depths).T):
-        found.append(
-            spread_of(outcomes.column, depth, points, values, everywhere, least)
-        )
-    refused = np.array([is_refused(run, planned) for run in runs])
-    chance = refusal_of(points, refused, everywhere) if has_suction else None
+        refused = np.array([is_refused(run, depth) for run in runs])
+        chance = refusal_of(points, refused, everywhere) if has_suction else None
+        reached = 1 - chance.probability if chance and refused.any() else 1.0
+        spread = outcomes.column, depth, points, values, everywhere, least, reached
+        found.append(spread_of(*spread))
     return Surfaces([spread for spread in found if spread], chance)
 
 

@@ -88,7 +88,10 @@ def of_surface(spreads: Sequence[Spread]) -> tuple[list[str], list[list[str]]]:
         unit, scale = unit_of(spread.name)
         where = f" at {spread.depth:.4g} m" if math.isfinite(spread.depth) else ""
         name = f"{words_of(spread.name)}{where}"
-        values = [cell(x * scale) for x in (*spread.quantiles, spread.error)]
+        values = [
+            "refused" if x == math.inf else cell(x * scale) for x in spread.quantiles
+        ]
+        values.append(cell(spread.error * scale))
         rows.append([name, unit, *values, str(spread.runs), spread.model])
     return ["result", "unit", *surface.NAMES, "error", "runs", "surface"], rows
 
