@@ -57,7 +57,7 @@ LIMITS = {
     ),
 }
 ABSENT = {  # kind: why a run has no limit of it
-    "piping": "no flow through the plug",
+    "piping": "no suction while water flows through the plug",
     "plug of clay": "none",
     "water boils": "Water/Water depth not given",
     "pump": "Water/Largest suction not given",

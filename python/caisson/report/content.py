@@ -379,8 +379,8 @@ def remarks_on_numbers(run: Results) -> list[str]:
     if residual is not None:
         share = 100 * abs(residual)
         found.append(
-            f"Energy error: {share:.2g} % of the work; the forces are uncertain by"
-            " about as much."
+            f"Energy error: {share:.2g} % of the work, of the steps in time alone; the"
+            " mesh has an error of its own."
         )
     if "plug_balance_error" in history:
         share = 100 * abs(history["plug_balance_error"][-1])

@@ -27,6 +27,7 @@ REASONS = {
     BOILING: "boiling below the lid",
 }
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
+NEAR = 0.9  # of the allowable suction: a required one that reaches it
 FINER = 21  # rows between two of the tables
 
 
@@ -121,10 +122,10 @@ def of_suction(
         reason = ended[1] + (
             beside_gradient(run) if ended[1] == REASONS[PIPING] else ""
         )
-        words = (
-            f"Feasible to {place}: there the required suction reaches the allowable one"
-            f" ({reason})."
-        )
+        reaches = "there the required suction reaches"
+        if found.required[-1] < NEAR * found.allowable[-1]:  # as at a layer
+            reaches = "just below, the required suction passes"
+        words = f"Feasible to {place}: {reaches} the allowable one ({reason})."
         return words + remedies.sentence_of(run, found, planned or depth)
     by = f"by {weight} alone: no suction is needed"
     if found.has_suction:

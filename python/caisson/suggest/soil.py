@@ -265,12 +265,12 @@ def layer_of(
         return Layer(top, sand.sand_of(given, law))
     angle, modulus = given.get("Friction angle", ""), "Youngs modulus"
     is_plain = given.get("Law", MOHR_COULOMB).startswith(MOHR_COULOMB)
-    if is_plain and angle and names.DENSITY in given and names.DENSEST not in given:
-        raise SuggestError(
-            f"--layer {text!r} gives friction angle and relative density: leave out"
-            " either; the angle follows from the density"
-        )
     if is_plain and angle and not strength and modulus not in given:
+        if names.DENSITY in given and names.DENSEST not in given:
+            raise SuggestError(
+                f"--layer {text!r} gives friction angle and relative density: leave"
+                " out either; the angle follows from the density"
+            )
         derived += filter(None, [sand.modulus_of(angle)])
     remarks = {entry.name: entry for entry in derived}
     entries = entries_of(given | {e.name: e.value for e in derived}, text)
