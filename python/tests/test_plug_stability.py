@@ -7,7 +7,7 @@ from math import inf, nan
 import numpy as np
 
 from caisson.design import suction_installation as installation
-from caisson.design.clay import Clay, Layer
+from caisson.design.clay import Clay, Layer, strength_at
 from caisson.design.cone import Skirt
 from caisson.design.plug_stability import (
     LIFT,
@@ -21,12 +21,12 @@ SKIRT = Skirt(6, 0.1, 0, 0)  # 4 / D_i = 0.689655 1/m
 ANCHOR, DEEP = Skirt(5, 0.035, 0, 0), 14.1
 
 
-def growing() -> list[Layer]:
-    """Return the layers of the anchor, of 1 cm each."""
+def growing(height: float = 0.01) -> list[Layer]:
+    """Return the layers of the anchor, of this height (m) each."""
     found = []
-    for i in range(1500):
-        strength = 2e3 + 1.5e3 * (i + 0.5) / 100
-        found.append(Layer(i / 100, 6e3, strength, strength / 2, strength / 2))
+    for top in np.arange(0, 15, height):
+        strength = 2e3 + 1.5e3 * (top + height / 2)
+        found.append(Layer(top, 6e3, strength, strength / 2, strength / 2))
     return found
 
 
@@ -78,6 +78,17 @@ class Anchor(unittest.TestCase):
         """9 23.15 + 88.654 4 / 4.93 = 208.35 + 71.93 kPa."""
         found = allowable(ANCHOR, growing(), np.array([DEEP]))
         self.assertAlmostEqual(found[REVERSE_BEARING][0] / 280.28e3, 1, delta=1e-3)
+
+    def test_strength_between_rows(self) -> None:
+        """Rows of 0.4 m have the strength of the profile at each depth; a layer of its
+        own keeps its strength, however thin it is."""
+        rows = growing(0.4)
+        for h in np.linspace(1, 13.9, 40):
+            self.assertAlmostEqual(strength_at(rows, h), 2e3 + 1.5e3 * h, delta=1)
+        for top, strength in ((4.0, 22e3), (0.4, 30e3)):
+            layers = [Layer(0, 6e3, 20e3, 0, 0), Layer(top, 6e3, strength, 0, 0)]
+            layers.append(Layer(2 * top, 6e3, 20e3, 0, 0))
+            self.assertEqual(strength_at(layers, 1.1 * top), strength)
 
     def test_required_suction(self) -> None:
         """The tip has pi 4.965 0.035 = 0.545929 m2 and 6 14.1 + 7.5 23.15 kPa, 141.0

@@ -20,10 +20,13 @@ from collections.abc import Sequence
 from math import inf, pi
 from typing import NamedTuple
 
+import numpy as np
+
 from caisson.design.cone import Skirt
 from caisson.design.method import Forces
 
 CASES = ("strip", "circle")
+THIN, ALIKE = 1.0, 0.3  # m, and of s_u: parts of a profile
 N_C = dict(zip(CASES, (7.5, 9.0)))
 
 
@@ -41,6 +44,24 @@ def tip_layer(layers: Sequence[Layer], h: float) -> int:
     """Return the number of the layer in which a tip at an embedment h (m) is, at a
     boundary the upper one."""
     return max([i for i, layer in enumerate(layers) if layer.top < h], default=0)
+
+
+def strength_at(layers: Sequence[Layer], h: float) -> float:
+    """Return s_u at a tip (Pa): on the line between the middles of the layers around,
+    where these are thin and so alike that they are parts of one profile."""
+    i = tip_layer(layers, h)
+    ends = [layer.top for layer in layers] + [inf]
+    middles = [(top + bottom) / 2 for top, bottom in zip(ends, ends[1:])]
+    j = i + 1 if h > middles[i] else i - 1
+    own, pair = layers[i].strength, sorted((i, j))
+    if not 0 <= j < len(layers) - 1 or i == len(layers) - 1:
+        return own
+    if max(ends[k + 1] - ends[k] for k in pair) > THIN:
+        return own
+    if abs(layers[j].strength - own) > ALIKE * own:
+        return own
+    values = [layers[k].strength for k in pair]
+    return float(np.interp(h, [middles[k] for k in pair], values))
 
 
 class Clay:
@@ -62,7 +83,7 @@ class Clay:
             stress += layer.unit_weight * thickness
             inner += layer.inner_adhesion * thickness
             outer += layer.outer_adhesion * thickness
-        strength = self.layers[tip_layer(self.layers, h)].strength
+        strength = strength_at(self.layers, h)
         return Forces(
             self.skirt.tip_area * (stress + N_C[case] * strength),
             pi * self.skirt.inner_diameter * inner,

@@ -27,7 +27,7 @@ from math import inf, nan
 
 import numpy as np
 
-from caisson.design.clay import Layer, tip_layer
+from caisson.design.clay import Layer, strength_at, tip_layer
 from caisson.design.cone import Skirt
 
 REVERSE_BEARING = "reverse bearing of the plug"
@@ -54,7 +54,7 @@ def adhesion(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
 
 def reverse_bearing(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
     """Return the suction at which the plug fails; nan where the tip is in sand."""
-    strength = layers[tip_layer(layers, h)].strength
+    strength = strength_at(layers, h)
     if not strength:
         return nan
     n_c = bearing_factor(h, skirt.outer_diameter)
