@@ -63,11 +63,16 @@ class Row(NamedTuple):
     page: str = ""
 
     @property
+    def reached(self) -> float:
+        """The share of the planned way that is feasible; 1 where it is not known."""
+        share = self.feasible / self.planned if self.planned else math.nan
+        return min(share, 1.0) if math.isfinite(share) else 1.0
+
+    @property
     def rank(self) -> tuple[bool, float, float]:
         """Its place: runs without a result, and then the worst, come first."""
-        reached = self.feasible / self.planned if self.planned else math.nan
         share = self.share if math.isfinite(self.share) else -1.0
-        return self.is_complete, -share, reached if math.isfinite(reached) else 1.0
+        return self.is_complete, self.reached, -share
 
 
 def check(studies: Sequence[Study], jobs: int) -> None:
@@ -143,6 +148,8 @@ def draw(path: Path, rows: Sequence[Row]) -> Path:
         text = f"{place:.2f}" if row.is_complete else "no result"
         if row.is_complete and not math.isfinite(row.share):
             text = "no suction"
+        if row.is_complete and row.reached < 1:
+            text += f", to {row.feasible:.3g} of {row.planned:.3g} m"
         axes.text(place, i, f" {text}", va="center", fontsize=8)
     for number, name in enumerate(limits):
         axes.barh(0, 0, color=COLORS[number % len(COLORS)], label=name)
@@ -150,7 +157,7 @@ def draw(path: Path, rows: Sequence[Row]) -> Path:
     axes.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=8)
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_xlim(
-        0, 1.25 * max(1.0, *(row.share for row in rows if row.share > 0), 1.0)
+        0, 1.45 * max(1.0, *(row.share for row in rows if row.share > 0), 1.0)
     )
     axes.set_xlabel("required suction / allowable suction, the largest on the way")
     axes.legend(fontsize=8, loc="lower right")
