@@ -426,3 +426,11 @@ def limit_load(
         for group in groups:
             group.move(length)
     raise ValueError(f"no limit load was found in {STEPS} steps")
+
+
+def extrapolated(loads: list[float]) -> float:
+    """Return the limit of three loads on meshes that are twice as fine each, with the
+    order of their differences between one and two."""
+    first, second = loads[-3] - loads[-2], loads[-2] - loads[-1]
+    ratio = min(max(first / second, 2.0), 4.0) if second > 0 else 4.0
+    return loads[-1] - second / (ratio - 1)

@@ -38,6 +38,7 @@ from scipy import sparse
 from lab.verification.limit_analysis import (
     Mesh,
     Strength,
+    extrapolated,
     graded,
     join,
     limit_load,
@@ -105,14 +106,6 @@ def lift(caisson: Caisson, strength: Strength, n: int, extent: float = 4.0) -> f
     # suction pulls upwards, and its power does not depend on where the plug rises
     load = -mesh.flux((z == 0) & (r <= inner), 1, size)
     return limit_load(rows, soil.volume, load)[0]
-
-
-def extrapolated(loads: list[float]) -> float:
-    """Return the limit of three loads on meshes that are twice as fine each, with the
-    order of their differences between one and two."""
-    first, second = loads[-3] - loads[-2], loads[-2] - loads[-1]
-    ratio = min(max(first / second, 2.0), 4.0) if second > 0 else 4.0
-    return loads[-1] - second / (ratio - 1)
 
 
 def bearing_factor(load: float, caisson: Caisson, strength: Strength) -> float:

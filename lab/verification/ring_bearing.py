@@ -27,12 +27,12 @@ import numpy as np
 from lab.verification.limit_analysis import (
     Mesh,
     Strength,
+    extrapolated,
     graded,
     join,
     limit_load,
     soil_of,
 )
-from lab.verification.plug_lift import extrapolated
 
 
 @dataclass(frozen=True)

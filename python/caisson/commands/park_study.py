@@ -127,7 +127,7 @@ def with_numbers(row: Row, run: Results) -> Row:
     if not len(part.required):
         return row
     with np.errstate(invalid="ignore", divide="ignore"):
-        shares = np.nan_to_num(part.required / part.allowable)
+        shares = np.nan_to_num(part.utilization)
     i = int(np.argmax(shares))
     share = max(1.0, float(shares[i])) if said.end is not None else float(shares[i])
     name = said.reason or (part.governing(i) if share > 0 else "")

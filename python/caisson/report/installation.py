@@ -102,6 +102,13 @@ class Installation:
         """The least limit (kPa), [n]; infinite without any."""
         return limits.least_of(self.limits, len(self.depth))
 
+    @property
+    def utilization(self) -> np.ndarray:
+        """The required suction over the allowable one, [n]; where none is allowed
+        infinite, or nan if none is required either."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(self.required / self.allowable)
+
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""
         return limits.governing(self.limits, i)
@@ -283,12 +290,11 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     if len(found.flow):
         power = found.flow / HOUR * found.required
         takes["power of the water (kW)"] = texts_of(power)
-    allowable = found.allowable
     margins = {shown.named("depth (m)"): depth}
     add(margins, "required suction (kPa)", found.required)
-    add(margins, "allowable (kPa)", allowable)
+    add(margins, "allowable (kPa)", found.allowable)
     margins["governed by"] = [found.governing(i) for i in n]
-    add(margins, "required / allowable", found.required / allowable)
+    add(margins, "required / allowable", found.utilization)
     add(margins, "exit gradient / critical", found.gradient)
     add(margins, "plug heave (m)", found.heave)
     add(margins, "room below the lid (m)", found.room)

@@ -103,7 +103,7 @@ def feasible_part(
 
 def share_of_allowable(found: Installation) -> str:
     """Return the largest share of the allowable suction, and what limits it."""
-    shares = found.required / found.allowable
+    shares = found.utilization
     if not (shares > 0).any():
         return ""
     i = int(np.nanargmax(shares))
