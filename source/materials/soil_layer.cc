@@ -19,7 +19,6 @@ namespace CaissonMPM
   namespace
   {
     using Kernels::LawDescription;
-    using Kernels::LawEntry;
 
     /** Call action(law) for all laws. */
     template <typename Action>
@@ -92,13 +91,17 @@ namespace CaissonMPM
     for_each_law([this](const LawDescription &law) {
       for (int i = 0; i < law.n_entries; ++i)
         {
-          const LawEntry &e = law.entries[i];
+          const Kernels::Entry &e = law.entry(i);
           const auto [place, is_new] =
             values.try_emplace(e.name,
                                e.value,
                                Patterns::Double(e.smallest, e.largest));
           if (is_new)
-            add_profile(*this, e.name, place->second, e.text);
+            add_profile(*this,
+                        e.name,
+                        place->second,
+                        std::string(e.text) +
+                          " Units: " + (*e.unit == 0 ? "none" : e.unit) + ".");
         }
     });
     declare_density();
@@ -258,7 +261,7 @@ namespace CaissonMPM
         bool is_used = relative_density && (entry.first == minimum_void_ratio ||
                                             entry.first == maximum_void_ratio);
         for (int i = 0; i < description.n_entries; ++i)
-          is_used = is_used || entry.first == description.entries[i].name;
+          is_used = is_used || entry.first == description.entry(i).name;
         if (!is_used)
           unused.push_back(section() + "/" + entry.first);
       }
@@ -303,11 +306,16 @@ namespace CaissonMPM
   SoilLayer::has_friction() const
   {
     const LawDescription &description = Kernels::law_table.law[law_named(law)];
-    if (description.friction_entry < 0)
-      return false;
-    const Profile &angle =
-      values.at(description.entries[description.friction_entry].name);
-    return !angle.is_constant() || angle.unchecked({}) > 0.;
+    for (int i = 0; i < description.n_entries; ++i)
+      for (const char *const name :
+           {Kernels::Entries::friction_angle.name,
+            Kernels::Entries::critical_friction_angle.name})
+        if (name == std::string(description.entry(i).name))
+          {
+            const Profile &angle = values.at(name);
+            return !angle.is_constant() || angle.unchecked({}) > 0.;
+          }
+    return false;
   }
 
   std::string
@@ -336,7 +344,7 @@ namespace CaissonMPM
       }
     const LawDescription &description = Kernels::law_table.law[law_named(law)];
     for (int i = 0; i < description.n_entries; ++i)
-      result.push_back(&values.at(description.entries[i].name));
+      result.push_back(&values.at(description.entry(i).name));
     return result;
   }
 
@@ -447,8 +455,7 @@ namespace CaissonMPM
     result.law_values.clear();
     const LawDescription &description = Kernels::law_table.law[result.law];
     for (int i = 0; i < description.n_entries; ++i)
-      result.law_values.push_back(
-        values.at(description.entries[i].name)(place));
+      result.law_values.push_back(values.at(description.entry(i).name)(place));
   }
 
   void

@@ -79,27 +79,18 @@ namespace CaissonMPM
   std::optional<double>
   SoilMaterial::friction_angle() const
   {
-    if (description(law).friction_entry < 0)
-      return {};
-    return law_values[description(law).friction_entry];
+    const auto peak = law_value(Kernels::Entries::friction_angle.name);
+    return peak ? peak :
+                  law_value(Kernels::Entries::critical_friction_angle.name);
   }
 
   std::vector<std::pair<std::string, std::string>>
   SoilMaterial::law_entries() const
   {
-    const std::string                                mark = "Units: ";
     std::vector<std::pair<std::string, std::string>> result;
     for (int i = 0; i < description(law).n_entries; ++i)
-      {
-        const std::string text = description(law).entries[i].text;
-        const std::size_t at   = text.rfind(mark);
-        std::string       unit =
-          at == std::string::npos ? "" : text.substr(at + mark.size());
-        if (!unit.empty() && unit.back() == '.')
-          unit.pop_back();
-        result.emplace_back(description(law).entries[i].name,
-                            unit == "none" ? "" : unit);
-      }
+      result.emplace_back(description(law).entry(i).name,
+                          description(law).entry(i).unit);
     return result;
   }
 
@@ -107,7 +98,7 @@ namespace CaissonMPM
   SoilMaterial::law_value(const std::string &entry) const
   {
     for (int i = 0; i < description(law).n_entries; ++i)
-      if (entry == description(law).entries[i].name)
+      if (entry == description(law).entry(i).name)
         return law_values[i];
     return {};
   }
@@ -238,7 +229,7 @@ namespace CaissonMPM
   bool
   has_yield_stress(const Kernels::Material &material)
   {
-    return Kernels::law_table.law[material.law].yield_stress != nullptr;
+    return Kernels::law_table.law[material.law].has_yield_stress;
   }
 
   double

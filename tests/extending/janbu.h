@@ -16,57 +16,48 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** Its state variable is the largest mean stress so far. */
-      struct Janbu
+      struct Janbu : MaterialLaw
       {
-        static constexpr const char *name      = "Janbu";
-        static constexpr LawEntry    entries[] = {
-             Entries::youngs_modulus,
-             Entries::poisson_ratio,
-             {"Modulus exponent",
-              "The exponent m of Janbu's law. Units: none.",
-              0.5,
-              0.,
-              1.},
-             {"Unloading factor",
-              "The stiffness on unloading over that on loading. Units: none.",
-              3.,
-              1.,
-              10.}};
-        static constexpr int  friction_entry = -1, n_state = 1;
-        static constexpr bool uses_void_ratio = false, stiffness_varies = true;
+        static constexpr const char *name             = "Janbu";
+        static constexpr bool        stiffness_varies = true;
+        static constexpr int         n_state          = 1;
 
-        struct Parameters
+        struct Parameters : Elasticity
         {
-          double lambda, mu, exponent, unloading;
+          double exponent, unloading;
         };
 
-        /** @p v: the values of the entries, in their order. */
-        static Parameters
-        make(const double *v)
-        {
-          return {v[0] * v[1] / ((1. + v[1]) * (1. - 2. * v[1])),
-                  .5 * v[0] / (1. + v[1]),
-                  v[2],
-                  v[3]};
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::exponent,
+           {"Modulus exponent",
+            "",
+            "The exponent m of Janbu's law.",
+            0.5,
+            0.,
+            1.}},
+          {&Parameters::unloading,
+           {"Unloading factor",
+            "",
+            "The stiffness on unloading over that on loading.",
+            3.,
+            1.,
+            10.}}};
 
         static bool
-        check(const double *v, const LawContext &, LawMessage &message)
+        check(const Parameters &p, const LawContext &, LawMessage &message)
         {
-          if (v[1] <= 0.45)
-            return true;
-          __builtin_snprintf(message.text,
-                             sizeof(message.text),
-                             "Poisson ratio = %g is too large for Janbu's law. "
-                             "Set it to at most 0.45.",
-                             v[1]);
-          return false;
+          return p.poisson_ratio <= 0.45 ||
+                 message.refuse("Poisson ratio = %g is too large for Janbu's "
+                                "law. Set it to at most 0.45.",
+                                p.poisson_ratio);
         }
 
         static double
         earth_pressure_at_rest(const Parameters &p)
         {
-          return p.lambda / (p.lambda + 2. * p.mu);
+          return p.oedometric;
         }
 
         template <typename Number>
@@ -82,14 +73,8 @@ namespace CaissonMPM
                        const Number /*void_ratio*/,
                        const Parameters &p)
         {
-          return p.unloading * (p.lambda + 2. * p.mu) *
+          return p.unloading * p.p_wave_modulus() *
                  pow(1e-5 * pressure(stress), p.exponent);
-        }
-
-        static void
-        start(const Parameters &, double *variable)
-        {
-          variable[0] = 0.;
         }
 
         template <typename Number>

@@ -41,7 +41,7 @@ main()
 {
   const double         E = 20e6, nu = 0.25, m = 0.5, unloading = 4.;
   const double         values[]   = {E, nu, m, unloading};
-  const auto           parameters = Janbu::make(values);
+  const auto           parameters = read_parameters<Janbu>(values);
   const LawDescription law        = law_table.law[7];
   std::printf("%s, %d entries, slot %d\n",
               law.name,

@@ -65,8 +65,8 @@ main()
   };
   Material material = make_scene(0., false).material; // linear elastic
   verdict("generic lanes: difference", worst(material), 1e-12);
-  set_law<MohrCoulomb>(material,
-                       MohrCoulomb::Parameters::make(E, nu, .5, .1, 1e2, 1e2));
+  const double values[] = {E, nu, 29., 6., 1e2, 1e2, no_limit};
+  set_law<MohrCoulomb>(material, read_parameters<MohrCoulomb>(values));
   verdict("the same with soil that yields", worst(material), 1e-12);
   std::printf("two lanes: %s\n", kernels_generic().width == 2 ? "yes" : "NO");
 }

@@ -18,7 +18,7 @@ constexpr double hochstetten[] =
 inline HypoplasticSand::Parameters
 parameters_of(const double *values)
 {
-  return HypoplasticSand::make(values);
+  return read_parameters<HypoplasticSand>(values);
 }
 
 #endif

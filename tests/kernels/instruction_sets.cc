@@ -68,24 +68,22 @@ check_instruction_sets()
   // blocks that yield may wait for others: some of them, and all
   for (const double cohesion : {9e3, 1e2})
     {
-      set_law<MohrCoulomb>(
-        material,
-        MohrCoulomb::Parameters::make(E, nu, .5, .1, cohesion, cohesion));
+      const double values[] = {E, nu, 29., 6., cohesion, cohesion, no_limit};
+      set_law<MohrCoulomb>(material, read_parameters<MohrCoulomb>(values));
       const std::string name =
         "the same with the cohesion " + std::to_string(int(cohesion));
       verdict(name.c_str(), worst(material), 1e-12);
     }
-  auto sand = MohrCoulomb::Parameters::make(E, nu, .5, .1, 1e2, 1e2);
-  sand.largest_void_ratio = .7;
-  set_law<MohrCoulomb>(material, sand);
+  const double loosest[] = {E, nu, 29., 6., 1e2, 1e2, .7};
+  set_law<MohrCoulomb>(material, read_parameters<MohrCoulomb>(loosest));
   verdict("the same with some soil in its loosest state",
           worst(material),
           1e-12);
   // points that are packed, whatever the width of the registers
   const double values[] = {
     30., 5.8e9, .28, .53, .84, 1., .13, 1.05, 100., 1e-4, 5., 2., .5, 6., 0.};
-  set_law<HypoplasticIntergranular>(material,
-                                    HypoplasticIntergranular::make(values));
+  set_law<HypoplasticIntergranular>(
+    material, read_parameters<HypoplasticIntergranular>(values));
   verdict("the same with hypoplastic sand", worst(material), 1e-9);
   std::printf("unknown instruction set: %s\n",
               select_kernels("NEON") == nullptr ? "refused" : "accepted");

@@ -45,7 +45,7 @@ parameters(const double evolution = .5)
                            evolution,
                            6.,
                            0.};
-  return Law::make(values);
+  return read_parameters<Law>(values);
 }
 
 

@@ -163,7 +163,8 @@ make_scene(const double axisymmetric, const bool affine)
   s.material.body_force[0]      = .3;
   s.material.body_force[1]      = -9.;
   s.material.p_wave_modulus     = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
-  set_law<LinearElastic>(s.material, LinearElastic::Parameters::make(E, nu));
+  const double values[]         = {E, nu};
+  set_law<LinearElastic>(s.material, read_parameters<LinearElastic>(values));
   return s;
 }
 

@@ -33,6 +33,14 @@ raise(double &largest, const double value)
     largest = value;
 }
 
+/** The parameters of a law for the values of its entries. */
+template <typename Law>
+typename Law::Parameters
+parameters_of(const std::initializer_list<double> values)
+{
+  return read_parameters<Law>(values.begin());
+}
+
 /** Strain soil along a straight @p path (rr, zz, tt, rz) to @p size times it, in
  * @p n steps, and an independent reference, with @p finer as many. Return the
  * largest difference of their stresses over scale(). */
@@ -98,7 +106,7 @@ public:
             const double                        pressure,
             const double                        void_ratio)
     : sigma{-pressure, -pressure, -pressure, 0.}
-    , parameters(Law::make(values.begin()))
+    , parameters(read_parameters<Law>(values.begin()))
   {
     state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
     state.void_ratio                                    = Scalar(void_ratio);

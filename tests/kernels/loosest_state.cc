@@ -49,7 +49,7 @@ namespace
             const double  void_ratio,
             const double  tolerance)
   {
-    Sphere<Law>      soil = {Law::make(values), 5e4, void_ratio};
+    Sphere<Law>      soil = {read_parameters<Law>(values), 5e4, void_ratio};
     constexpr int    n    = 2000;
     constexpr double step = .5 / n;
     for (int i = 0; i < n; ++i)
@@ -72,14 +72,16 @@ namespace
   void
   check_plastic_strain(const double *values, const double void_ratio)
   {
-    Sphere<MohrCoulomb> soil = {MohrCoulomb::make(values), 5e4, void_ratio};
+    Sphere<MohrCoulomb> soil = {read_parameters<MohrCoulomb>(values),
+                                5e4,
+                                void_ratio};
     for (int i = 0; i < 2000; ++i)
       soil.strain(1e-4);
     while (soil.pressure == 0.)
       soil.strain(-1e-4);
     verdict("elastic strain of a gap that has closed",
             std::abs(soil.elastic +
-                     (soil.pressure - 5e4) / soil.parameters.elastic.bulk),
+                     (soil.pressure - 5e4) / soil.parameters.bulk),
             1e-12);
   }
 
@@ -90,7 +92,7 @@ namespace
                       const double  e_max,
                       const double  tolerance)
   {
-    Sphere<Law>      soil = {Law::make(values), 0., e_max};
+    Sphere<Law>      soil = {read_parameters<Law>(values), 0., e_max};
     constexpr double step = 1e-5;
     constexpr int    n    = 400;
     for (int i = 0; i < n; ++i)
@@ -110,7 +112,7 @@ namespace
   void
   check_dilation(const double *values, const double void_ratio)
   {
-    Sample<Law> soil(Law::make(values), 1e5, void_ratio);
+    Sample<Law> soil(read_parameters<Law>(values), 1e5, void_ratio);
     double      too_loose = 0., last = 0.;
     for (int i = 0; i < 4000; ++i)
       {
@@ -143,7 +145,7 @@ namespace
   volume_changes(Scene s, const double largest, const double rate)
   {
     const double values[] = {E, nu, 30., 10., 0., 0., largest};
-    set_law<MohrCoulomb>(s.material, MohrCoulomb::make(values));
+    set_law<MohrCoulomb>(s.material, read_parameters<MohrCoulomb>(values));
     s.material.initial_void_ratio = e_0;
     fill_blocks(s);
     unsigned int i = 0;
@@ -209,7 +211,7 @@ main()
   check_dilation<MohrCoulombStiffening>(stiffened, .6);
   double karlsruhe[9];
   for (int i = 0; i < 9; ++i)
-    karlsruhe[i] = HypoplasticSand::entries[i].value;
+    karlsruhe[i] = HypoplasticSand::entries[i].entry.value;
   check_gap<HypoplasticSand>(karlsruhe, .75, 1e-6);
   check_cells(1.);
   check_cells(0.);

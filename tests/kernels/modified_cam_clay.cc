@@ -294,8 +294,9 @@ test_check()
       LawMessage message;
       std::printf("K0 = %.2f: %s\n",
                   k0,
-                  Law::check(values, {k0, e_0}, message) ? "taken" :
-                                                           message.text);
+                  Law::check(read_parameters<Law>(values), {k0, e_0}, message) ?
+                    "taken" :
+                    message.text);
     }
 }
 

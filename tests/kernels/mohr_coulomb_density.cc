@@ -87,7 +87,7 @@ test_triaxial()
                     pressure / 1e3);
         constexpr double strain = .2;
         constexpr int    n      = 8000;
-        Sample<Law>      sample(Law::make(sand), pressure, e);
+        Sample<Law>      sample(read_parameters<Law>(sand), pressure, e);
         double           q_peak = 0.;
         for (int i = 0; i < n; ++i)
           {
@@ -114,7 +114,7 @@ test_constant_volume()
   for (const double start : {.3, 3.})
     {
       std::printf("constant volume, from %.1f of the critical stress\n", start);
-      Sample<Law> sample(Law::make(sand), start * critical, e);
+      Sample<Law> sample(read_parameters<Law>(sand), start * critical, e);
       for (int i = 0; i < 40000; ++i)
         sample.strain(2.5e-5, -5e-5);
       const double p = -(sample.axial + 2. * sample.lateral) / 3.,
@@ -138,8 +138,8 @@ test_simple_shear()
       LawState<Scalar>    state;
       state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
       state.void_ratio                                    = Scalar(e);
-      const Law::Parameters p                             = Law::make(sand);
-      double                height                        = 0.;
+      const Law::Parameters p      = read_parameters<Law>(sand);
+      double                height = 0.;
       for (int i = 0; i < 30000; ++i)
         {
           const auto sheared = [&](const double growth) {
@@ -192,7 +192,7 @@ test_stiffness()
     for (const double pressure : {2e4, 1e5, 1e6})
       {
         constexpr double strain = 1e-7;
-        Sample<Law>      sample(Law::make(sand), pressure, e);
+        Sample<Law>      sample(read_parameters<Law>(sand), pressure, e);
         sample.strain(-strain, -strain);
         const double bulk = E / (3. * (1. - 2. * nu)) *
                             std::pow(pressure / 1e5, exponent) * hardin(e) /
@@ -208,7 +208,7 @@ void
 test_gap()
 {
   std::printf("a gap that closes\n");
-  Sample<Law> sample(Law::make(sand), 0., e_max + 0.02);
+  Sample<Law> sample(read_parameters<Law>(sand), 0., e_max + 0.02);
   double      closed = 0.;
   while (sample.void_ratio > e_max + 1e-3)
     {

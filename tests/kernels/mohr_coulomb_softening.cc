@@ -20,7 +20,7 @@ test_softening()
   const double pressure = 1e5;
   for (const int n_steps : {1000, 4000})
     {
-      Sample<Law> sample(Law::make(brittle), pressure, 1.);
+      Sample<Law> sample(read_parameters<Law>(brittle), pressure, 1.);
       double      peak = 0., error = 0., flow = 0.;
       for (int i = 0; i < n_steps; ++i)
         {
@@ -58,8 +58,8 @@ test_softening()
   double values[10];
   std::copy(brittle, brittle + 10, values);
   values[9] = 0.;
-  Sample<Law>         soft(Law::make(values), pressure, 1.);
-  Sample<MohrCoulomb> hard(MohrCoulomb::make(values), pressure, 1.);
+  Sample<Law>         soft(read_parameters<Law>(values), pressure, 1.);
+  Sample<MohrCoulomb> hard(read_parameters<MohrCoulomb>(values), pressure, 1.);
   double              difference = 0.;
   for (int i = 0; i < 200; ++i)
     {

@@ -39,8 +39,8 @@ test_compression()
                ratio = nu / (1. - nu), mean_over_axial = (1. + 2. * ratio) / 3.;
   for (const int n_steps : {1000, 4000})
     {
-      Sample<Law> isotropic(Law::make(elastic), start, 1.),
-        oedometer(Law::make(elastic), start, 1.);
+      Sample<Law> isotropic(read_parameters<Law>(elastic), start, 1.),
+        oedometer(read_parameters<Law>(elastic), start, 1.);
       for (int i = 0; i < n_steps; ++i)
         {
           isotropic.strain(-strain / 3. / n_steps, -strain / 3. / n_steps);
@@ -64,7 +64,7 @@ test_smallest_stress()
 {
   std::printf("below the smallest stress\n");
   const double start = 10., strain = 1e-6;
-  Sample<Law>  sample(Law::make(elastic), start, 1.);
+  Sample<Law>  sample(read_parameters<Law>(elastic), start, 1.);
   sample.strain(-strain / 3., -strain / 3.);
   const double bulk = elastic[0] / (3. * (1. - 2. * elastic[1])) *
                       std::pow(elastic[9] / elastic[7], elastic[8]);
@@ -84,7 +84,7 @@ test_triaxial()
       double values[n_values];
       std::copy(sand, sand + n_values, values);
       values[0] = E;
-      Sample<Law> sample(Law::make(values), pressure, 1.);
+      Sample<Law> sample(read_parameters<Law>(values), pressure, 1.);
       for (int i = 0; i < 1000; ++i)
         sample.strain_at_lateral_stress(-pressure, -step);
       report("strength", std::fabs(sample.axial / -pressure / N - 1.), 1e-9);
@@ -99,8 +99,10 @@ test_triaxial()
   double values[n_values];
   std::copy(sand, sand + n_values, values);
   values[8] = 0.;
-  Sample<Law>         stiffening(Law::make(values), pressure, 1.);
-  Sample<MohrCoulomb> perfect(MohrCoulomb::make(values), pressure, 1.);
+  Sample<Law>         stiffening(read_parameters<Law>(values), pressure, 1.);
+  Sample<MohrCoulomb> perfect(read_parameters<MohrCoulomb>(values),
+                              pressure,
+                              1.);
   double              difference = 0.;
   for (int i = 0; i < 200; ++i)
     {

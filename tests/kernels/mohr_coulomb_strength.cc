@@ -69,7 +69,7 @@ void
 test_elastic()
 {
   const Soil   soil{0.3, 30. * angle_per_deg, 0., 0., 0.};
-  const auto   elastic = LinearElastic::Parameters::make(E, soil.nu);
+  const auto   elastic = parameters_of<LinearElastic>({E, soil.nu});
   const Tensor old{-1e5, -2e5, -1.5e5, 2e4};
   const Tensor increment{1e-3, -2e-3, 5e-4, 7e-4};
 

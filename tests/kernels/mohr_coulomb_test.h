@@ -32,8 +32,13 @@ constexpr double angle_per_deg = 3.14159265358979323846 / 180.;
 inline MohrCoulomb::Parameters
 parameters_of(const Soil &soil)
 {
-  return MohrCoulomb::Parameters::make(
-    E, soil.nu, soil.phi, soil.psi, soil.cohesion, soil.tension);
+  return parameters_of<MohrCoulomb>({E,
+                                     soil.nu,
+                                     soil.phi * degrees,
+                                     soil.psi * degrees,
+                                     soil.cohesion,
+                                     soil.tension,
+                                     no_limit});
 }
 
 

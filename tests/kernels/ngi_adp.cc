@@ -29,7 +29,7 @@ public:
 
   Clay(const double tau_0, const std::initializer_list<double> values)
     : sigma{-1e5 + tau_0, -1e5 - tau_0, -1e5 + tau_0, 0.}
-    , parameters(Law::make(values.begin()))
+    , parameters(read_parameters<Law>(values.begin()))
   {
     state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
     double variable[n_state_variables]                  = {};
@@ -426,7 +426,9 @@ test_check()
     LawMessage message;
     std::printf("%s: %s\n",
                 what,
-                Law::check(values.begin(), {k0, 1., 6e4}, message) ?
+                Law::check(read_parameters<Law>(values.begin()),
+                           {k0, 1., 6e4},
+                           message) ?
                   "taken" :
                   message.text);
   };

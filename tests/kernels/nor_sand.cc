@@ -390,8 +390,11 @@ test_check()
     LawMessage message;
     std::printf("%s: %s\n",
                 what,
-                Law::check(values, {k0, e, p_0}, message) ? "taken" :
-                                                            message.text);
+                Law::check(read_parameters<Law>(values),
+                           {k0, e, p_0},
+                           message) ?
+                  "taken" :
+                  message.text);
   };
   ask("dense", chi, .5, .65);
   ask("too dense", chi, .5, .4);
@@ -408,7 +411,7 @@ test_check()
   const double steep[] = {
     E_ref, nu, phi_c, Gamma, .1, N, 10., H, 1., 1e5, .5, 1e3};
   LawMessage message;
-  Law::check(steep, {.5, .7, p_0}, message);
+  Law::check(read_parameters<Law>(steep), {.5, .7, p_0}, message);
   std::printf("%s\n", message.text);
 }
 

@@ -12,6 +12,7 @@
 
 #include "law_test.h"
 
+constexpr double no_cutoff = MohrCoulombStrength<double>::no_cutoff;
 constexpr double E = 2e7, time_of_overstress = 0.5, rate = 0.4;
 
 struct Point
@@ -31,7 +32,8 @@ sheared(const typename Law::Parameters &parameters,
 {
   Point p;
   p.stress = {Scalar(-pressure), Scalar(-pressure), Scalar(-pressure), 0.};
-  p.state.plastic_deviatoric = p.state.plastic_volumetric = Scalar(0.);
+  p.state.plastic_deviatoric = p.state.plastic_volumetric = p.state.void_ratio =
+    Scalar(0.);
   for (int i = 0; i < n; ++i)
     update_with_overstress<Law>(
       p.stress,
@@ -46,11 +48,10 @@ void
 test_strength()
 {
   std::printf("steady shear\n");
-  const double phi = 30. / degrees;
-  const auto   sand =
-    MohrCoulomb::Parameters::make(E, 0.3, phi, 0., 0., MohrCoulomb::no_cutoff);
+  const auto sand =
+    parameters_of<MohrCoulomb>({E, 0.3, 30., 0., 0., no_cutoff, no_limit});
   const auto clay =
-    MohrCoulomb::Parameters::make(E, 0.3, 0., 0., 1e4, MohrCoulomb::no_cutoff);
+    parameters_of<MohrCoulomb>({E, 0.3, 0., 0., 1e4, no_cutoff, no_limit});
   double error = 0., plastic = 0.;
   for (const double pressure : {1e3, 1e5})
     for (const double dt : {1e-4, 1e-3})
@@ -77,11 +78,12 @@ void
 test_tension()
 {
   std::printf("pulled apart\n");
-  const auto sand = MohrCoulomb::Parameters::make(
-    E, 0.3, 30. / degrees, 0., 0., MohrCoulomb::no_cutoff);
+  const auto sand =
+    parameters_of<MohrCoulomb>({E, 0.3, 30., 0., 0., no_cutoff, no_limit});
   StressState<Scalar> stress{-1e3, -1e3, -1e3, 0.};
   LawState<Scalar>    state;
-  state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
+  state.plastic_deviatoric = state.plastic_volumetric = state.void_ratio =
+    Scalar(0.);
   for (int i = 0; i < 10; ++i)
     update_with_overstress<MohrCoulomb>(
       stress, {1e-4, 1e-4, 1e-4, 0.}, state, sand, 1e3);
@@ -93,7 +95,7 @@ test_softening()
 {
   std::printf("softening\n");
   constexpr double values[] = {E, 0.3, 0., 0., 2e4, 1e30, 0., 0., 5e3, 20.};
-  const auto       law      = MohrCoulombSoftening::make(values);
+  const auto       law      = read_parameters<MohrCoulombSoftening>(values);
   const Point      p = sheared<MohrCoulombSoftening>(law, 1e5, 4000, 1e-4);
   const double c = 5e3 + 15e3 * std::exp(-20. * p.state.plastic_deviatoric[0]);
   // the stress falls with the strength: G g_plastic = G g - d tau / dt

@@ -28,21 +28,23 @@ namespace CaissonMPM
       /** The slope of the critical state line. */
       struct CriticalStateSlope
       {
-        double M;  // of triaxial compression
-        double a4; // a^4 of the file's head
+        double M;    // of triaxial compression
+        double a4;   // a^4 of the file's head
+        double sine; // of phi_c
 
-        /** @p sine: that of phi_c. */
+        /** @p phi_c in degrees. */
         static CriticalStateSlope
-        make(const double sine)
+        make(const double phi_c)
         {
-          const double a = (3. - sine) / (3. + sine);
-          return {6. * sine / (3. - sine), a * a * a * a};
+          const double sine = __builtin_sin(phi_c * radians_per_degree),
+                       a    = (3. - sine) / (3. + sine);
+          return {6. * sine / (3. - sine), a * a * a * a, sine};
         }
 
         /** q / p of the stress at rest with this K0, over M in triaxial
-         * compression or extension. @p sine: that of phi_c. */
-        static double
-        share_at_rest(const double sine, const double earth_pressure_at_rest)
+         * compression or extension. */
+        double
+        share_at_rest(const double earth_pressure_at_rest) const
         {
           const double k = earth_pressure_at_rest,
                        q = 3. * (1. - k) / (1. + 2. * k);

@@ -122,11 +122,11 @@ namespace CaissonMPM
             material.parameters);
         StressStep<Number> s = begin_stress_step(b, lane, p, cell, settings);
         bool               is_loose = false;
-        if constexpr (knows_loosest_state<Law>(0))
+        if constexpr (Law::has_loosest_state)
           if (cell.has_loose_points && material.has_loosest_state)
             is_loose = hold_loose_points<Law, Number>(
               b, history, lane, material, parameters, cell, settings, s.step);
-        if constexpr (is_packed<Law>(0))
+        if constexpr (Law::is_packed)
           return waiting.template add<Law>(
             b, history, lane, count, s, p, parameters, in_group);
         const Number mass   = Number::load(b.mass + lane),
@@ -251,7 +251,7 @@ namespace CaissonMPM
                          UpdateSums<Number>       &sums,
                          UpdateInProgress<Number> &progress)
       {
-        if constexpr (is_external<Law>(0))
+        if constexpr (Law::is_external)
           return update_user_block<Number>(
             points, block, cell, settings, material, limited, sums);
         else
@@ -399,7 +399,7 @@ namespace CaissonMPM
             const Material &material = step.materials[header.material];
             with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
               using Law = decltype(law);
-              if constexpr (is_packed<Law>(0) || is_external<Law>(0))
+              if constexpr (Law::is_packed || Law::is_external)
                 outside = update_block_apart<Law>(points,
                                                   block,
                                                   in_group,

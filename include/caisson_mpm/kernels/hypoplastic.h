@@ -18,12 +18,9 @@ namespace CaissonMPM
       struct HypoplasticSand : HypoplasticIntegration<false>
       {
         static constexpr const char *name = "hypoplastic sand";
-        static constexpr int         friction_entry =
-                               entry_named(entries, "Critical friction angle"),
-                             n_state = 0;
 
         static const char *
-        warning(const double * /*values*/)
+        warning(const Parameters &)
         {
           return "hypoplastic sand has no elastic range, and the smallest "
                  "vibrations weaken it: dense sand bore two thirds of the "

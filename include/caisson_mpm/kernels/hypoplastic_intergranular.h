@@ -24,93 +24,66 @@ namespace CaissonMPM
       {
         static constexpr const char *name =
           "hypoplastic sand with intergranular strain";
-        static constexpr LawEntry entries[] = {
-          Entries::critical_friction_angle,
-          HypoplasticEntries::granulate_hardness,
-          HypoplasticEntries::compression_exponent,
-          HypoplasticEntries::densest_void_ratio,
-          HypoplasticEntries::critical_void_ratio,
-          HypoplasticEntries::loosest_void_ratio,
-          HypoplasticEntries::density_exponent_of_strength,
-          HypoplasticEntries::density_exponent_of_stiffness,
-          HypoplasticEntries::smallest_mean_stress,
-          {"Elastic range of strain",
-           "The intergranular strain has the length R at most; sand is nearly "
-           "elastic for strains that are small beside it. Units: none.",
-           1e-4,
-           1e-7,
-           1e-2},
-          {"Stiffness factor of reversals",
-           "The stiffness after a reversal of the strain, and of sand at rest, "
-           "is m_R times that of the linear part of the law. Units: none.",
-           5.,
-           1.,
-           100.},
-          {"Stiffness factor of turns",
-           "The stiffness after a turn of the strain path by 90 degrees is m_T "
-           "times that of the linear part of the law. Units: none.",
-           2.,
-           1.,
-           100.},
-          {"Evolution exponent",
-           "The intergranular strain approaches its largest length with the "
-           "exponent beta_r. Units: none.",
-           0.5,
-           0.01,
-           10.},
-          {"Stiffness decay exponent",
-           "The additional stiffness decays with the power chi of the "
-           "intergranular strain. Units: none.",
-           6.,
-           0.1,
-           100.},
-          {"Intergranular strain at the start",
-           "At the start the intergranular strain is this share of R, in "
-           "vertical compression: 0 for sand long at rest, 1 for sand just laid "
-           "down. Units: none.",
-           0.,
-           0.,
-           1.}};
-        static constexpr int friction_entry =
-                               entry_named(entries, "Critical friction angle"),
-                             n_state            = 4;
+        static constexpr int  n_state           = 4;
         static constexpr bool state_is_a_tensor = true;
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<HypoplasticIntergranular> value{values};
-          Parameters p = Hypoplasticity::make(values);
-          p.range      = value("Elastic range of strain");
-          p.reversed   = value("Stiffness factor of reversals");
-          p.turned     = value("Stiffness factor of turns");
-          p.evolution  = value("Evolution exponent");
-          p.decay      = value("Stiffness decay exponent");
-          p.start      = value("Intergranular strain at the start");
-          p.by_roots =
-            has_quarter_power(p.evolution) && has_quarter_power(p.decay);
-          return p;
-        }
+        static constexpr auto entries = joined<Parameters>(
+          Hypoplasticity::entries,
+          {{&Parameters::range,
+            {"Elastic range of strain",
+             "",
+             "The intergranular strain has the length R at most; sand is nearly elastic for strains that are small beside it.",
+             1e-4,
+             1e-7,
+             1e-2}},
+           {&Parameters::reversed,
+            {"Stiffness factor of reversals",
+             "",
+             "The stiffness after a reversal of the strain, and of sand at rest, is m_R times that of the linear part of the law.",
+             5.,
+             1.,
+             100.}},
+           {&Parameters::turned,
+            {"Stiffness factor of turns",
+             "",
+             "The stiffness after a turn of the strain path by 90 degrees is m_T times that of the linear part of the law.",
+             2.,
+             1.,
+             100.}},
+           {&Parameters::evolution,
+            {"Evolution exponent",
+             "",
+             "The intergranular strain approaches its largest length with the exponent beta_r.",
+             0.5,
+             0.01,
+             10.}},
+           {&Parameters::decay,
+            {"Stiffness decay exponent",
+             "",
+             "The additional stiffness decays with the power chi of the intergranular strain.",
+             6.,
+             0.1,
+             100.}},
+           {&Parameters::start,
+            {"Intergranular strain at the start",
+             "",
+             "At the start the intergranular strain is this share of R, in vertical compression: 0 for sand long at rest, 1 for sand just laid down.",
+             0.,
+             0.,
+             1.}}});
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<HypoplasticIntergranular> value{values};
-          if (value("Stiffness factor of turns") >
-              value("Stiffness factor of reversals"))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Stiffness factor of turns = %g exceeds "
-                "Stiffness factor of reversals = %g. Lower it.",
-                value("Stiffness factor of turns"),
-                value("Stiffness factor of reversals"));
-              return false;
-            }
-          return Hypoplasticity::check(values, context, message);
+          if (p.turned > p.reversed)
+            return message.refuse(
+              "Stiffness factor of turns = %g exceeds "
+              "Stiffness factor of reversals = %g. Lower it.",
+              p.turned,
+              p.reversed);
+          return Hypoplasticity::check(p, context, message);
         }
 
         static void

@@ -52,141 +52,114 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Entries that the laws of hypoplastic sand share. */
-      namespace HypoplasticEntries
-      {
-        constexpr LawEntry granulate_hardness = {
-          "Granulate hardness",
-          "The granulate hardness of hypoplastic sand is h_s of Bauer's law "
-          "of compression. Units: Pa.",
-          5.8e9,
-          1e5,
-          no_limit};
-        constexpr LawEntry compression_exponent = {
-          "Compression exponent",
-          "The compression exponent of hypoplastic sand is n of Bauer's law "
-          "of compression. Units: none.",
-          0.28,
-          0.05,
-          0.95};
-        constexpr LawEntry densest_void_ratio = {
-          "Densest void ratio",
-          "The smallest void ratio of hypoplastic sand at zero pressure is "
-          "e_d0. Units: none.",
-          0.53,
-          0.01,
-          10.};
-        constexpr LawEntry critical_void_ratio = {
-          "Critical void ratio",
-          "The void ratio of hypoplastic sand in the critical state at zero "
-          "pressure is e_c0. Units: none.",
-          0.84,
-          0.01,
-          10.};
-        constexpr LawEntry loosest_void_ratio = {
-          "Loosest void ratio",
-          "The largest void ratio of hypoplastic sand at zero pressure is "
-          "e_i0. Units: none.",
-          1.,
-          0.01,
-          10.};
-        constexpr LawEntry density_exponent_of_strength = {
-          "Density exponent of strength",
-          "The exponent alpha sets the peak strength of dense hypoplastic "
-          "sand. Units: none.",
-          0.13,
-          0.,
-          1.};
-        constexpr LawEntry density_exponent_of_stiffness = {
-          "Density exponent of stiffness",
-          "The exponent beta sets the stiffness of dense hypoplastic sand. "
-          "Units: none.",
-          1.05,
-          0.,
-          10.};
-        constexpr LawEntry smallest_mean_stress = {
-          "Smallest mean stress",
-          "Hypoplastic sand behaves as if its mean effective stress were "
-          "larger by this, p_t, and parts under a larger tension. Units: Pa.",
-          100.,
-          1.,
-          1e5};
-      } // namespace HypoplasticEntries
-
       /**
        * The equations of hypoplastic sand: rate-type, without a yield surface,
        * with the void ratio as state. See the head of the file.
        */
-      struct Hypoplasticity
+      struct Hypoplasticity : MaterialLaw
       {
-        static constexpr LawEntry entries[] = {
-          Entries::critical_friction_angle,
-          HypoplasticEntries::granulate_hardness,
-          HypoplasticEntries::compression_exponent,
-          HypoplasticEntries::densest_void_ratio,
-          HypoplasticEntries::critical_void_ratio,
-          HypoplasticEntries::loosest_void_ratio,
-          HypoplasticEntries::density_exponent_of_strength,
-          HypoplasticEntries::density_exponent_of_stiffness,
-          HypoplasticEntries::smallest_mean_stress};
-
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
-                              is_packed = true;
+                              is_packed = true, has_loosest_state = true;
 
         struct Parameters
         {
-          double sin_phi, a, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
+          double friction_angle, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
 
           /** p_t. Units: Pa. */
           double shift;
 
+          /** Of the intergranular strain: R, m_R, m_T, beta_r, chi, and |h| / R
+           * at the start. A law without one has m_R = 1. */
+          double range = 1., reversed = 1., turned = 1., evolution = 1.,
+                 decay = 1., start = 0.;
+
+          double sin_phi, a;
+
           /** What of f_b depends on neither stress nor e_i. Units: Pa. */
           double stiffness;
 
-          /** Of the intergranular strain: R, m_R, m_T, beta_r, chi. A law
-           * without one has m_R = 1. */
-          double range = 1., reversed = 1., turned = 1., evolution = 1.,
-                 decay = 1.;
-
           /** Whether both powers of |h| / R are computed by roots. */
-          bool by_roots = true;
-
-          /** |h| / R at the start. */
-          double start = 0.;
+          bool by_roots;
 
           /** Up to the pressure dense_pressure, e_i is at least dense. Most
            * soil has less of both, and needs no closer look. Units: Pa. */
           static constexpr double dense_pressure = 1e6;
-          double                  dense          = 0.;
+          double                  dense;
+
+          void
+          derive()
+          {
+            sin_phi = __builtin_sin(friction_angle * radians_per_degree);
+            a       = __builtin_sqrt(3.) * (3. - sin_phi) /
+                (2. * __builtin_sqrt(2.) * sin_phi);
+            stiffness =
+              hardness / n * __builtin_pow(e_i0, beta) / denominator(*this);
+            dense    = loosest_void_ratio(Lanes<1>(dense_pressure), *this)[0];
+            by_roots = has_quarter_power(evolution) && has_quarter_power(decay);
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<Hypoplasticity> value{values};
-          Parameters                      p;
-          p.sin_phi = __builtin_sin(value("Critical friction angle") *
-                                    radians_per_degree);
-          p.a       = __builtin_sqrt(3.) * (3. - p.sin_phi) /
-                (2. * __builtin_sqrt(2.) * p.sin_phi);
-          p.hardness = value("Granulate hardness");
-          p.n        = value("Compression exponent");
-          p.e_d0     = value("Densest void ratio");
-          p.e_c0     = value("Critical void ratio");
-          p.e_i0     = value("Loosest void ratio");
-          p.alpha    = value("Density exponent of strength");
-          p.beta     = value("Density exponent of stiffness");
-          p.shift    = value("Smallest mean stress");
-          p.stiffness =
-            p.hardness / p.n * __builtin_pow(p.e_i0, p.beta) / denominator(p);
-          p.dense = loosest_void_ratio(Lanes<1>(p.dense_pressure), p)[0];
-          return p;
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::friction_angle, Entries::critical_friction_angle},
+          {&Parameters::hardness,
+           {"Granulate hardness",
+            "Pa",
+            "The granulate hardness of hypoplastic sand is h_s of Bauer's law of compression.",
+            5.8e9,
+            1e5,
+            no_limit}},
+          {&Parameters::n,
+           {"Compression exponent",
+            "",
+            "The compression exponent of hypoplastic sand is n of Bauer's law of compression.",
+            0.28,
+            0.05,
+            0.95}},
+          {&Parameters::e_d0,
+           {"Densest void ratio",
+            "",
+            "The smallest void ratio of hypoplastic sand at zero pressure is e_d0.",
+            0.53,
+            0.01,
+            10.}},
+          {&Parameters::e_c0,
+           {"Critical void ratio",
+            "",
+            "The void ratio of hypoplastic sand in the critical state at zero pressure is e_c0.",
+            0.84,
+            0.01,
+            10.}},
+          {&Parameters::e_i0,
+           {"Loosest void ratio",
+            "",
+            "The largest void ratio of hypoplastic sand at zero pressure is e_i0.",
+            1.,
+            0.01,
+            10.}},
+          {&Parameters::alpha,
+           {"Density exponent of strength",
+            "",
+            "The exponent alpha sets the peak strength of dense hypoplastic sand.",
+            0.13,
+            0.,
+            1.}},
+          {&Parameters::beta,
+           {"Density exponent of stiffness",
+            "",
+            "The exponent beta sets the stiffness of dense hypoplastic sand.",
+            1.05,
+            0.,
+            10.}},
+          {&Parameters::shift,
+           {"Smallest mean stress",
+            "Pa",
+            "Hypoplastic sand behaves as if its mean effective stress were larger by this, p_t, and parts under a larger tension.",
+            100.,
+            1.,
+            1e5}}};
 
         static bool
-        check(const double     *values,
-              const LawContext &context,
-              LawMessage       &message);
+        check(const Parameters &, const LawContext &, LawMessage &);
 
         /** e_i at the pressure -tr T / 3. */
         template <typename Number>
@@ -238,13 +211,6 @@ namespace CaissonMPM
                        const Parameters &p)
         {
           return (looseness > dense) | (pressure > Number(p.dense_pressure));
-        }
-
-        /** 1 - sin phi_c (Jaky). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.sin_phi;
         }
 
         /**
@@ -359,64 +325,44 @@ namespace CaissonMPM
       };
 
       inline bool
-      Hypoplasticity::check(const double     *values,
+      Hypoplasticity::check(const Parameters &p,
                             const LawContext &context,
                             LawMessage       &message)
       {
-        const Parameters p   = make(values);
-        const double     e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
+        const double e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
         if (!(e_d < e_c && e_c < e_i))
-          {
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "Densest void ratio = %g, Critical void ratio = %g and Loosest "
-              "void ratio = %g must grow in this order. Correct them.",
-              e_d,
-              e_c,
-              e_i);
-            return false;
-          }
+          return message.refuse(
+            "Densest void ratio = %g, Critical void ratio = %g and Loosest "
+            "void ratio = %g must grow in this order. Correct them.",
+            e_d,
+            e_c,
+            e_i);
         if (context.void_ratio < e_d || context.void_ratio > e_i)
-          {
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "Porosity = %g, a void ratio of %g, lies outside Densest void "
-              "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
-              "Change one of them.",
-              context.void_ratio / (1. + context.void_ratio),
-              context.void_ratio,
-              e_d,
-              e_i,
-              e_d / (1. + e_d),
-              e_i / (1. + e_i));
-            return false;
-          }
+          return message.refuse(
+            "Porosity = %g, a void ratio of %g, lies outside Densest void "
+            "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
+            "Change one of them.",
+            context.void_ratio / (1. + context.void_ratio),
+            context.void_ratio,
+            e_d,
+            e_i,
+            e_d / (1. + e_d),
+            e_i / (1. + e_i));
         const double loosest =
           loosest_void_ratio(Lanes<1>(context.mean_stress + p.shift), p)[0];
         if (context.void_ratio > loosest)
-          {
-            __builtin_snprintf(message.text,
-                               sizeof(message.text),
-                               "Porosity = %g, a void ratio of %g, is looser "
-                               "than the loosest state, %g, at the mean stress "
-                               "%g Pa. Lower it, or check Granulate hardness.",
-                               context.void_ratio / (1. + context.void_ratio),
-                               context.void_ratio,
-                               loosest,
-                               context.mean_stress);
-            return false;
-          }
+          return message.refuse(
+            "Porosity = %g, a void ratio of %g, is looser "
+            "than the loosest state, %g, at the mean stress "
+            "%g Pa. Lower it, or check Granulate hardness.",
+            context.void_ratio / (1. + context.void_ratio),
+            context.void_ratio,
+            loosest,
+            context.mean_stress);
         if (!(denominator(p) > 0.))
-          {
-            __builtin_snprintf(message.text,
-                               sizeof(message.text),
-                               "Density exponent of strength = %g leaves the "
-                               "loosest sand without stiffness. Lower it.",
-                               p.alpha);
-            return false;
-          }
+          return message.refuse("Density exponent of strength = %g leaves the "
+                                "loosest sand without stiffness. Lower it.",
+                                p.alpha);
         return true;
       }
 

@@ -26,7 +26,7 @@ namespace CaissonMPM
           const Material   &material = materials[m];
           with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
             using Law = decltype(law);
-            if constexpr (is_external<Law>(0))
+            if constexpr (Law::is_external)
               for (int lane = 0; lane < points.headers[block].count; ++lane)
                 {
                   const double modulus =

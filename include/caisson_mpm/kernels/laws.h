@@ -91,74 +91,6 @@ namespace CaissonMPM
       template <typename Law>
       constexpr int law_id = slot_of<Law>(Slots());
 
-      /** From Law::dilates(), if the law has one; chosen for the argument 0. */
-      template <typename Law>
-      inline auto
-      volume_in_shear(const typename Law::Parameters &p, int)
-        -> decltype(Law::dilates(p), VolumeInShear::kept)
-      {
-        return Law::dilates(p) ? VolumeInShear::gained : VolumeInShear::kept;
-      }
-
-      template <typename Law>
-      inline VolumeInShear
-      volume_in_shear(const typename Law::Parameters &, long)
-      {
-        return VolumeInShear::by_state;
-      }
-
-      /** From Law::is_frictionless(), if the law has one: whether its strength
-       * is the same at all pressures; chosen for the argument 0. */
-      template <typename Law>
-      inline auto
-      is_frictionless(const typename Law::Parameters &p, int)
-        -> decltype(Law::is_frictionless(p))
-      {
-        return Law::is_frictionless(p);
-      }
-
-      template <typename Law>
-      inline bool
-      is_frictionless(const typename Law::Parameters &, long)
-      {
-        return false;
-      }
-
-      /** Whether the law reads the void ratio with these parameters; from
-       * Law::needs_void_ratio(), if the law has one, for the argument 0. */
-      template <typename Law>
-      [[gnu::always_inline]] inline auto
-      needs_void_ratio(const typename Law::Parameters &p, int)
-        -> decltype(Law::needs_void_ratio(p))
-      {
-        return Law::needs_void_ratio(p);
-      }
-
-      template <typename Law>
-      [[gnu::always_inline]] inline bool
-      needs_void_ratio(const typename Law::Parameters &, long)
-      {
-        return Law::uses_void_ratio;
-      }
-
-      /** Whether the law has a loosest state; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      knows_loosest_state(int)
-        -> decltype(Law::loosest_void_ratio(StressState<Lanes<1>>(),
-                                            typename Law::Parameters()),
-                    true)
-      {
-        return true;
-      }
-
-      template <typename Law>
-      constexpr bool
-      knows_loosest_state(long)
-      {
-        return false;
-      }
-
       /** Write a law and its parameters into a material. */
       template <typename Law>
       inline void
@@ -167,10 +99,10 @@ namespace CaissonMPM
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
                       "enlarge Material::parameters (material.h)");
         material.law             = law_id<Law>;
-        material.volume_in_shear = volume_in_shear<Law>(parameters, 0);
-        material.is_frictionless = is_frictionless<Law>(parameters, 0);
+        material.volume_in_shear = Law::volume_in_shear(parameters);
+        material.is_frictionless = Law::is_frictionless(parameters);
         material.has_loosest_state =
-          knows_loosest_state<Law>(0) && needs_void_ratio<Law>(parameters, 0);
+          Law::has_loosest_state && Law::needs_void_ratio(parameters);
         material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
@@ -180,12 +112,13 @@ namespace CaissonMPM
       /** A law for code that is not compiled for each law. */
       struct LawDescription
       {
-        const char     *name; // null: the slot is free
-        const LawEntry *entries;
-        int             n_entries;
-        int             friction_entry;
-        bool            stiffness_varies;
-        bool            has_yield_surface;
+        const char *name; // null: the slot is free
+        int         n_entries;
+        bool        stiffness_varies;
+        bool        has_yield_surface;
+        bool        has_yield_stress;
+
+        const Entry &(*entry)(const int i);
 
         /** Whether the values fit together; if not, why. */
         bool (*check)(const double *values, const LawContext &, LawMessage &);
@@ -211,53 +144,12 @@ namespace CaissonMPM
         /** The variables of a point at the start [n_state_variables]. */
         void (*start)(const Material &, double *variable);
 
-        /** Law::yield_stress(), or null. Units: Pa. */
+        /** Units: Pa. */
         double (*yield_stress)(const Material &,
                                const double *stress,
                                const double  void_ratio,
                                const double *variable);
       };
-
-      inline const char *
-      no_warning(const double * /*values*/)
-      {
-        return nullptr;
-      }
-
-      /** Law::warning() if the law has one; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      warning_of(int) -> decltype(&Law::warning)
-      {
-        return &Law::warning;
-      }
-
-      template <typename Law>
-      constexpr auto
-      warning_of(long) -> decltype(&no_warning)
-      {
-        return &no_warning;
-      }
-
-      /** Whether the law has a yield stress; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      knows_yield_stress(int)
-        -> decltype(Law::yield_stress(StressState<Lanes<1>>(),
-                                      Lanes<1>(),
-                                      Lanes<1>(),
-                                      typename Law::Parameters()),
-                    true)
-      {
-        return true;
-      }
-
-      template <typename Law>
-      constexpr bool
-      knows_yield_stress(long)
-      {
-        return false;
-      }
 
       /** The functions of a description. */
       template <int slot>
@@ -275,10 +167,30 @@ namespace CaissonMPM
           return reinterpret_cast<const Parameters &>(material.parameters);
         }
 
+        static constexpr const Entry &
+        entry(const int i)
+        {
+          return Law::entries[i].entry;
+        }
+
+        static bool
+        check(const double     *values,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          return Law::check(read_parameters<Law>(values), context, message);
+        }
+
+        static const char *
+        warning(const double *values)
+        {
+          return Law::warning(read_parameters<Law>(values));
+        }
+
         static void
         set(Material &material, const double *values)
         {
-          set_law<Law>(material, Law::make(values));
+          set_law<Law>(material, read_parameters<Law>(values));
         }
 
         static double
@@ -303,7 +215,7 @@ namespace CaissonMPM
                            const double   *stress,
                            const double    void_ratio)
         {
-          if constexpr (knows_loosest_state<Law>(0))
+          if constexpr (Law::has_loosest_state)
             if (material.has_loosest_state)
               {
                 const double loosest =
@@ -322,11 +234,9 @@ namespace CaissonMPM
         static void
         start(const Material &material, double *variable)
         {
-          (void)material;
           for (int i = 0; i < n_state_variables; ++i)
             variable[i] = 0.;
-          if constexpr (Law::n_state > 0)
-            Law::start(parameters(material), variable);
+          Law::start(parameters(material), variable);
         }
 
         static double
@@ -335,24 +245,16 @@ namespace CaissonMPM
                      const double    void_ratio,
                      const double   *variable)
         {
-          return Law::yield_stress(
-            StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
-            Lanes<1>(void_ratio),
-            Lanes<1>(variable[0]),
-            parameters(material))[0];
+          if constexpr (Law::has_yield_stress)
+            return Law::yield_stress(
+              StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
+              Lanes<1>(void_ratio),
+              Lanes<1>(variable[0]),
+              parameters(material))[0];
+          (void)material, (void)stress, (void)void_ratio, (void)variable;
+          return 0.;
         }
       };
-
-      /** yield_stress() of a law that has one, or null. */
-      template <int slot>
-      constexpr auto
-      yield_stress_of() -> decltype(LawDescription::yield_stress)
-      {
-        if constexpr (knows_yield_stress<typename SlotNumber<slot>::Law>(0))
-          return &LawFunctions<slot>::yield_stress;
-        else
-          return nullptr;
-      }
 
       template <int slot>
       constexpr LawDescription
@@ -363,19 +265,19 @@ namespace CaissonMPM
             using Law = typename SlotNumber<slot>::Law;
             using F   = LawFunctions<slot>;
             return {Law::name,
-                    Law::entries,
-                    sizeof(Law::entries) / sizeof(LawEntry),
-                    Law::friction_entry,
+                    n_entries<Law>,
                     Law::stiffness_varies,
-                    has_yield_surface<Law>(0),
-                    &Law::check,
-                    warning_of<Law>(0),
+                    Law::has_yield_surface,
+                    Law::has_yield_stress,
+                    &F::entry,
+                    &F::check,
+                    &F::warning,
                     &F::set,
                     &F::earth_pressure_at_rest,
                     &F::p_wave_modulus,
                     &F::void_ratio_of_soil,
                     &F::start,
-                    yield_stress_of<slot>()};
+                    &F::yield_stress};
           }
         else
           return {};
@@ -418,9 +320,10 @@ namespace CaissonMPM
             for (int i = 0; i < a.n_entries; ++i)
               for (int j = 0; j < b.n_entries; ++j)
                 {
-                  const LawEntry &x = a.entries[i], &y = b.entries[j];
+                  const Entry &x = a.entry(i), &y = b.entry(j);
                   if (same_text(x.name, y.name) &&
-                      !(same_text(x.text, y.text) && x.value == y.value &&
+                      !(same_text(x.text, y.text) &&
+                        same_text(x.unit, y.unit) && x.value == y.value &&
                         x.smallest == y.smallest && x.largest == y.largest))
                     return false;
                 }

@@ -19,62 +19,21 @@ namespace CaissonMPM
     {
       /** The law "linear elastic": Hooke's law for increments. See the head of
        * the file. */
-      struct LinearElastic
+      struct LinearElastic : ElasticLaw
       {
-        static constexpr const char *name           = "linear elastic";
-        static constexpr LawEntry    entries[]      = {Entries::youngs_modulus,
-                                                       Entries::poisson_ratio};
-        static constexpr int         friction_entry = -1, n_state = 0;
-        static constexpr bool        uses_void_ratio  = false;
-        static constexpr bool        stiffness_varies = false;
+        static constexpr const char *name = "linear elastic";
 
-        struct Parameters
-        {
-          /** Lame's constants. Units: Pa. */
-          double lambda, mu;
+        using Parameters = Elasticity;
 
-          /**
-           * From Young's modulus @p E [Pa] and Poisson's ratio @p nu, which
-           * must be below 1/2.
-           */
-          static Parameters
-          make(const double E, const double nu)
-          {
-            Parameters p;
-            p.lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
-            p.mu     = 0.5 * E / (1. + nu);
-            return p;
-          }
-        };
-
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<LinearElastic> value{values};
-          return Parameters::make(value("Youngs modulus"),
-                                  value("Poisson ratio"));
-        }
-
-        static bool
-        check(const double * /*values*/, const LawContext &, LawMessage &)
-        {
-          return true;
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio}};
 
         /** nu / (1 - nu). */
         static double
         earth_pressure_at_rest(const Parameters &p)
         {
           return p.lambda / (p.lambda + 2. * p.mu);
-        }
-
-        template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        p_wave_modulus(const StressState<Number> & /*stress*/,
-                       const Number /*void_ratio*/,
-                       const Parameters &p)
-        {
-          return p.lambda + 2. * p.mu;
         }
 
         /** Advance @p sigma by the strain increment @p de. */

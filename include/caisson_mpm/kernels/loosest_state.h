@@ -66,7 +66,7 @@ namespace CaissonMPM
             return;
           with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
             using Law = decltype(law);
-            if constexpr (knows_loosest_state<Law>(0))
+            if constexpr (Law::has_loosest_state)
               for (int lane = 0; lane < block_size; lane += Number::width)
                 volume +=
                   select(in_loosest_state<Law, Number>(

@@ -46,7 +46,7 @@ namespace CaissonMPM
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
       double        overstress_time; // kernels/overstress.h; 0: none (s)
-      alignas(16) unsigned char parameters[320];
+      alignas(16) unsigned char parameters[384];
     };
   } // namespace Kernels
 } // namespace CaissonMPM

@@ -2,44 +2,16 @@
 //
 // What a material law consists of, apart from its equations. A law is one
 // header with one struct, here called Law, and is registered by including that
-// header in laws.h. It has
+// header in laws.h. It derives from MaterialLaw, which has a default of all but
 //
-//   static constexpr const char *name;          // the value of the entry "Law"
-//   static constexpr LawEntry    entries[];     // what it asks of the user
-//   static constexpr int         friction_entry;// its friction angle; -1: none
-//   static constexpr bool        uses_void_ratio;
-//   static constexpr bool        stiffness_varies; // with stress, void ratio
-//   static constexpr bool        has_yield_surface; // optional: overstress.h
-//   static constexpr bool        is_packed; // optional, for a law that
-//                                   // takes long: packed_points.h
-//   static constexpr int         n_state; // of LawState::variable in use
-//   static constexpr bool        state_is_a_tensor; // optional: the first four
-//                                   // variables turn with the soil
-//   static constexpr bool        is_external; // optional: has no update(), but
-//                                   // is called point by point: user_points.h
-//   struct Parameters;                              // plain data
-//
-//   static Parameters make(const double *values);
-//   static bool check(const double *values, const LawContext &, LawMessage &);
-//   template <typename Number> // optional, with the next: loosest_state.h
-//   static Number loosest_void_ratio(const StressState<Number> &,
-//                                    const Parameters &);
-//   template <typename Number> // the same without a division, for each step
-//   static typename Number::Mask is_loosest(const StressState<Number> &,
-//                                           const Number volume,
-//                                           const Number volume_of_solids,
-//                                           const Parameters &);
-//   static const char *warning(const double *values); // optional; null: none
-//   static double earth_pressure_at_rest(const Parameters &);
+//   static constexpr const char *name;   // the value of the entry "Law"
+//   struct Parameters;                   // plain data: the values of the
+//                                        // entries, and what follows from them
+//     void derive();                     // sets what follows from the entries
+//   static constexpr Entry<Parameters> entries[]; // what it asks of the user
 //   template <typename Number>
 //   static Number p_wave_modulus(const StressState<Number> &,
 //                                Number void_ratio, const Parameters &);
-//   static void start(const Parameters &, double *variable); // if n_state > 0
-//   template <typename Number> // optional: what frames call yield_stress, with
-//                              // the first variable of the point; in Pa
-//   static Number yield_stress(const StressState<Number> &,
-//                              const Number void_ratio, const Number variable,
-//                              const Parameters &);
 //   template <typename Number>
 //   static void update(StressState<Number> &, const StrainIncrement<Number> &,
 //                      LawState<Number> &, const Parameters &);
@@ -48,8 +20,7 @@
 //
 //   template <> struct LawSlot<7> { using type = Law; };
 //
-// Values stand in the order of the entries and in their units (angles in
-// degrees). update() may not branch on single lanes: select(), any().
+// update() may not branch on single lanes: select(), any().
 #ifndef caisson_mpm_kernels_material_law_h
 #define caisson_mpm_kernels_material_law_h
 
@@ -66,44 +37,63 @@ namespace CaissonMPM
        * An entry of the section "Soil/Layer k". Laws that ask for the same
        * name share the entry: it must then be the same in all of them.
        */
-      struct LawEntry
+      struct Entry
       {
-        const char *name;
-        const char *text; // one sentence, and "Units: ...."
+        const char *name, *unit; // "": none
+        const char *text;        // full sentences
         double      value, smallest, largest;
       };
 
-      /** The position of the entry with this name; -1: there is none. */
-      template <int n>
-      constexpr int
-      entry_named(const LawEntry (&entries)[n], const char *name)
+      /** An entry, and where the parameters of a law keep its value, in the
+       * unit of the entry (angles in degrees). */
+      template <typename Parameters>
+      struct LawEntry
       {
-        for (int i = 0; i < n; ++i)
-          {
-            const char *a = entries[i].name, *b = name;
-            while (*a != 0 && *a == *b)
-              ++a, ++b;
-            if (*a == *b)
-              return i;
-          }
-        return -1;
-      }
+        double Parameters::*value;
+        Entry               entry;
+      };
 
-      /** The values of a law, by the names of its entries. */
-      template <typename Law>
-      struct LawValues
+      /** A table of entries, with the size of an array. */
+      template <typename Parameters, int n>
+      struct LawEntries
       {
-        const double *values; // in the order of Law::entries
+        LawEntry<Parameters> entries[n];
 
-        double
-        operator()(const char *name) const
+        constexpr const LawEntry<Parameters> &
+        operator[](const int i) const
         {
-          const int i = entry_named(Law::entries, name);
-          if (i < 0)
-            __builtin_trap(); // the law has no such entry
-          return values[i];
+          return entries[i];
         }
       };
+
+      template <typename Law>
+      constexpr int n_entries = sizeof(Law::entries) / sizeof(Law::entries[0]);
+
+      /** The entries of another law, and more. */
+      template <typename Parameters, typename Other, int n, int n_more>
+      constexpr LawEntries<Parameters, n + n_more>
+      joined(const LawEntry<Other> (&first)[n],
+             const LawEntry<Parameters> (&more)[n_more])
+      {
+        LawEntries<Parameters, n + n_more> result{};
+        for (int i = 0; i < n; ++i)
+          result.entries[i] = {first[i].value, first[i].entry};
+        for (int i = 0; i < n_more; ++i)
+          result.entries[n + i] = more[i];
+        return result;
+      }
+
+      /** The parameters of a law for values in the order of its entries. */
+      template <typename Law>
+      inline typename Law::Parameters
+      read_parameters(const double *values)
+      {
+        typename Law::Parameters parameters;
+        for (int i = 0; i < n_entries<Law>; ++i)
+          parameters.*Law::entries[i].value = values[i];
+        parameters.derive();
+        return parameters;
+      }
 
       /** The largest value of an entry that has no upper limit. */
       constexpr double no_limit = __DBL_MAX__;
@@ -122,6 +112,17 @@ namespace CaissonMPM
       struct LawMessage
       {
         char text[512];
+
+        /** Write the text as printf() does; returns false. */
+        [[gnu::format(printf, 2, 3)]] bool
+        refuse(const char *format, ...)
+        {
+          __builtin_va_list arguments;
+          __builtin_va_start(arguments, format);
+          __builtin_vsnprintf(text, sizeof(text), format, arguments);
+          __builtin_va_end(arguments);
+          return false;
+        }
       };
 
       /** Of each MP, besides its stress. */
@@ -160,101 +161,226 @@ namespace CaissonMPM
       /** Entries that several laws share. */
       namespace Entries
       {
-        constexpr LawEntry youngs_modulus = {
+        constexpr Entry youngs_modulus = {
           "Youngs modulus",
-          "Young's modulus is that of the drained soil. Units: Pa.",
+          "Pa",
+          "Young's modulus is that of the drained soil.",
           5e6,
           1e-12,
           no_limit};
-        constexpr LawEntry poisson_ratio = {
+        constexpr Entry poisson_ratio = {
           "Poisson ratio",
-          "Poisson's ratio is that of the drained soil. Units: none.",
+          "",
+          "Poisson's ratio is that of the drained soil.",
           0.3,
           0.,
           0.4999};
-        constexpr LawEntry friction_angle = {
+        constexpr Entry friction_angle = {
           "Friction angle",
-          "The effective friction angle phi is the peak value where the law "
-          "softens. Units: degrees.",
+          "degrees",
+          "The effective friction angle phi is the peak value where the law softens.",
           30.,
           0.,
           60.};
-        constexpr LawEntry dilatancy_angle = {
+        constexpr Entry dilatancy_angle = {
           "Dilatancy angle",
-          "The dilatancy angle psi, at most phi, is the peak value where the "
-          "law softens. Units: degrees.",
+          "degrees",
+          "The dilatancy angle psi, at most phi, is the peak value where the law softens.",
           0.,
           0.,
           60.};
-        constexpr LawEntry cohesion = {
+        constexpr Entry cohesion = {
           "Cohesion",
-          "The effective cohesion c is the peak value where the law softens. "
-          "Units: Pa.",
+          "Pa",
+          "The effective cohesion c is the peak value where the law softens.",
           0.,
           0.,
           no_limit};
-        constexpr LawEntry largest_void_ratio = {
+        constexpr Entry largest_void_ratio = {
           "Largest void ratio",
-          "Dilatant soil is nowhere looser than this, unloaded: it shears at "
-          "constant volume from then on, and a gap must close before it bears. "
-          "Units: none.",
+          "",
+          "Dilatant soil is nowhere looser than this, unloaded: it shears at constant volume from then on, and a gap must close before it bears.",
           2.,
           0.,
           no_limit};
-        constexpr LawEntry tension_cutoff = {
+        constexpr Entry tension_cutoff = {
           "Tension cut-off",
-          "No principal stress exceeds this tension. Units: Pa.",
+          "Pa",
+          "No principal stress exceeds this tension.",
           0.,
           0.,
           no_limit};
-        constexpr LawEntry critical_friction_angle = {
+        constexpr Entry critical_friction_angle = {
           "Critical friction angle",
-          "The friction angle phi_c is that of the critical state. Units: "
-          "degrees.",
+          "degrees",
+          "The friction angle phi_c is that of the critical state.",
           30.,
           10.,
           60.};
-        constexpr LawEntry minimum_void_ratio = {
+        constexpr Entry minimum_void_ratio = {
           "Minimum void ratio",
-          "The void ratio e_min of the relative density 1. Units: none.",
+          "",
+          "The void ratio e_min of the relative density 1.",
           0.,
           0.,
           19.};
-        constexpr LawEntry maximum_void_ratio = {
+        constexpr Entry maximum_void_ratio = {
           "Maximum void ratio",
-          "The void ratio e_max of the relative density 0. Units: none.",
+          "",
+          "The void ratio e_max of the relative density 0.",
           0.,
           0.,
           19.};
-        constexpr LawEntry yield_stress_ratio = {
+        constexpr Entry yield_stress_ratio = {
           "Yield stress ratio",
-          "The size of the yield surface of a point at the start over that of "
-          "the one through its stress: 1 in normally consolidated soil. Units: "
-          "none.",
+          "",
+          "The size of the yield surface of a point at the start over that of the one through its stress: 1 in normally consolidated soil.",
           1.,
           1.,
           1e3};
-        constexpr LawEntry reference_stress = {
+        constexpr Entry reference_stress = {
           "Reference stress",
-          "Young's modulus is that of this mean effective stress. Units: Pa.",
+          "Pa",
+          "Young's modulus is that of this mean effective stress.",
           1e5,
           1e-3,
           no_limit};
-        constexpr LawEntry stiffness_exponent = {
+        constexpr Entry stiffness_exponent = {
           "Stiffness exponent",
-          "Young's modulus grows with this power of the mean effective "
-          "stress. Units: none.",
+          "",
+          "Young's modulus grows with this power of the mean effective stress.",
           0.5,
           0.,
           1.};
-        constexpr LawEntry smallest_stress_of_stiffness = {
+        constexpr Entry smallest_stress_of_stiffness = {
           "Smallest stress of stiffness",
-          "Below this mean effective stress Young's modulus falls no further. "
-          "Units: Pa.",
+          "Pa",
+          "Below this mean effective stress Young's modulus falls no further.",
           1e3,
           1e-3,
           no_limit};
       } // namespace Entries
+
+      /** What a law has that says nothing else. */
+      struct MaterialLaw
+      {
+        static constexpr bool uses_void_ratio  = false;
+        static constexpr bool stiffness_varies = false; // with stress, density
+        static constexpr bool is_packed = false; // takes long: packed_points.h
+
+        /** Has no update(), but is called point by point: user_points.h. */
+        static constexpr bool is_external = false;
+
+        /** May have an Internal length: overstress.h. The parameters then have
+         * the constants lambda and mu. */
+        static constexpr bool has_yield_surface = false;
+
+        /** How many of LawState::variable are in use, and whether the first
+         * four turn with the soil. */
+        static constexpr int  n_state           = 0;
+        static constexpr bool state_is_a_tensor = false;
+
+        /** Has, with the types of p_wave_modulus(),
+         *   Number loosest_void_ratio(stress, parameters);
+         *   Mask is_loosest(stress, volume, volume_of_solids, parameters);
+         * the second without a division, for each step: loosest_state.h. */
+        static constexpr bool has_loosest_state = false;
+
+        /** Has Number yield_stress(stress, void_ratio, variable, parameters),
+         * in Pa, of the first variable of the point: what frames call so. */
+        static constexpr bool has_yield_stress = false;
+
+        /** Whether the parameters fit together and to the soil. */
+        template <typename Parameters>
+        static bool
+        check(const Parameters &, const LawContext &, LawMessage &)
+        {
+          return true;
+        }
+
+        /** What the law is known not to describe, or null. */
+        template <typename Parameters>
+        static const char *
+        warning(const Parameters &)
+        {
+          return nullptr;
+        }
+
+        template <typename Parameters>
+        static VolumeInShear
+        volume_in_shear(const Parameters &)
+        {
+          return VolumeInShear::by_state;
+        }
+
+        /** Whether the strength is the same at all pressures. */
+        template <typename Parameters>
+        static bool
+        is_frictionless(const Parameters &)
+        {
+          return false;
+        }
+
+        /** Whether a law with uses_void_ratio reads it with these parameters.
+         */
+        template <typename Parameters>
+        static bool
+        needs_void_ratio(const Parameters &)
+        {
+          return true;
+        }
+
+        /** K0: 1 - sin(phi) (Jaky 1948). */
+        template <typename Parameters>
+        static double
+        earth_pressure_at_rest(const Parameters &p)
+        {
+          return 1. - __builtin_sin(p.friction_angle * radians_per_degree);
+        }
+
+        /** Set the variables of a point at the start, which are 0. */
+        template <typename Parameters>
+        static void
+        start(const Parameters &, double * /*variable*/)
+        {}
+      };
+
+      /** The elasticity of the law of Hooke: Lame's constants, the bulk modulus
+       * (Pa), and nu / (1 - nu), the earth pressure at rest. */
+      struct Elasticity
+      {
+        double youngs_modulus, poisson_ratio; // entries
+        double lambda, mu, bulk, oedometric;
+
+        void
+        derive()
+        {
+          const double E = youngs_modulus, nu = poisson_ratio;
+          lambda     = E * nu / ((1. + nu) * (1. - 2. * nu));
+          mu         = 0.5 * E / (1. + nu);
+          bulk       = E / (3. * (1. - 2. * nu));
+          oedometric = nu / (1. - nu);
+        }
+
+        double
+        p_wave_modulus() const
+        {
+          return lambda + 2. * mu;
+        }
+      };
+
+      /** A law whose parameters are an Elasticity, and whose stiffness is. */
+      struct ElasticLaw : MaterialLaw
+      {
+        template <typename Number>
+        [[gnu::always_inline]] static inline Number
+        p_wave_modulus(const StressState<Number> & /*stress*/,
+                       const Number /*void_ratio*/,
+                       const Elasticity &p)
+        {
+          return p.p_wave_modulus();
+        }
+      };
 
       /** The law of this number, Material::law; void: none. */
       template <int slot>

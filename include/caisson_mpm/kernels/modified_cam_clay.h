@@ -34,84 +34,66 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The law "modified Cam clay". See the head of the file. */
-      struct ModifiedCamClay
+      struct ModifiedCamClay : MaterialLaw
       {
-        static constexpr const char *name      = "modified Cam clay";
-        static constexpr LawEntry    entries[] = {
-             {"Slope of compression",
-              "The slope lambda of the normal compression line, -de / d(ln p); "
-                 "the compression index over 2.3. Units: none.",
-              0.2,
-              1e-4,
-              10.},
-             {"Slope of swelling",
-              "The slope kappa of the lines of swelling, -de / d(ln p); the "
-                 "swelling index over 2.3. Units: none.",
-              0.04,
-              1e-5,
-              10.},
-             Entries::poisson_ratio,
-             Entries::critical_friction_angle,
-             Entries::yield_stress_ratio,
-             Entries::smallest_stress_of_stiffness};
-        static constexpr int  friction_entry = 3, n_state = 1;
-        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+        static constexpr const char *name     = "modified Cam clay";
+        static constexpr int         n_state  = 1;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true,
+                              has_yield_stress = true;
 
         struct Parameters
         {
-          double             lambda, kappa;
+          double lambda, kappa, poisson_ratio, friction_angle; // entries
+          double at_start;        // an entry: the yield stress ratio
+          double smallest_stress; // an entry
+
           double             shear; // G / K
           CriticalStateSlope slope;
-          double             at_start; // the yield stress ratio
-          double             smallest_stress, sine;
+
+          void
+          derive()
+          {
+            shear = 1.5 * (1. - 2. * poisson_ratio) / (1. + poisson_ratio);
+            slope = CriticalStateSlope::make(friction_angle);
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<ModifiedCamClay> value{values};
-          const double                     nu = value("Poisson ratio"),
-                       s = __builtin_sin(value("Critical friction angle") *
-                                         radians_per_degree);
-          return {value("Slope of compression"),
-                  value("Slope of swelling"),
-                  1.5 * (1. - 2. * nu) / (1. + nu),
-                  CriticalStateSlope::make(s),
-                  value("Yield stress ratio"),
-                  value("Smallest stress of stiffness"),
-                  s};
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::lambda,
+           {"Slope of compression",
+            "",
+            "The slope lambda of the normal compression line, -de / d(ln p); the compression index over 2.3.",
+            0.2,
+            1e-4,
+            10.}},
+          {&Parameters::kappa,
+           {"Slope of swelling",
+            "",
+            "The slope kappa of the lines of swelling, -de / d(ln p); the swelling index over 2.3.",
+            0.04,
+            1e-5,
+            10.}},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::critical_friction_angle},
+          {&Parameters::at_start, Entries::yield_stress_ratio},
+          {&Parameters::smallest_stress,
+           Entries::smallest_stress_of_stiffness}};
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<ModifiedCamClay> value{values};
-          const double share = CriticalStateSlope::share_at_rest(
-            __builtin_sin(value("Critical friction angle") *
-                          radians_per_degree),
-            context.earth_pressure_at_rest);
-          const char *const text =
-            value("Slope of swelling") >= value("Slope of compression") ?
-              "Slope of swelling is not below Slope of compression. Reduce it." :
-            context.void_ratio <= 0. ?
-              "the void ratio at the start is 0. Set Void ratio." :
-            share >= 1. ?
-              "K0 is beyond the critical state of Critical friction angle. "
-              "Correct one of them." :
-              nullptr;
-          if (text == nullptr)
-            return true;
-          __builtin_snprintf(message.text, sizeof(message.text), "%s", text);
-          return false;
-        }
-
-        /** 1 - sin(phi_c) (Jaky 1948). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.sine;
+          if (p.kappa >= p.lambda)
+            return message.refuse(
+              "Slope of swelling is not below Slope of compression. Reduce it.");
+          if (context.void_ratio <= 0.)
+            return message.refuse(
+              "the void ratio at the start is 0. Set Void ratio.");
+          if (p.slope.share_at_rest(context.earth_pressure_at_rest) >= 1.)
+            return message.refuse("K0 is beyond the critical state of Critical "
+                                  "friction angle. Correct one of them.");
+          return true;
         }
 
         /** The bulk modulus at the mean stress @p pressure (Pa). */
@@ -135,14 +117,7 @@ namespace CaissonMPM
                  bulk_modulus(pressure(stress), max(void_ratio, Number(0.)), p);
         }
 
-        /** p_c is 0 until the first step. */
-        static void
-        start(const Parameters &, double *variable)
-        {
-          variable[0] = 0.;
-        }
-
-        /** p_c, also before the first step. */
+        /** p_c, also before the first step, until which it is 0. */
         template <typename Number>
         [[gnu::always_inline]] static inline Number
         yield_stress(const StressState<Number> &sigma,

@@ -16,87 +16,51 @@ namespace CaissonMPM
     {
       /** The law "Mohr-Coulomb": perfect plasticity, whose strength all points
        * of a material share. See the head of the file. */
-      struct MohrCoulomb
+      struct MohrCoulomb : ElasticLaw
       {
-        static constexpr const char *name      = "Mohr-Coulomb";
-        static constexpr LawEntry    entries[] = {Entries::youngs_modulus,
-                                                  Entries::poisson_ratio,
-                                                  Entries::friction_angle,
-                                                  Entries::dilatancy_angle,
-                                                  Entries::cohesion,
-                                                  Entries::tension_cutoff,
-                                                  Entries::largest_void_ratio};
-        static constexpr int         friction_entry =
-                               entry_named(entries, "Friction angle"),
-                             n_state            = 0;
-        static constexpr bool uses_void_ratio   = true;
-        static constexpr bool stiffness_varies  = false;
-        static constexpr bool has_yield_surface = true;
+        static constexpr const char *name              = "Mohr-Coulomb";
+        static constexpr bool        uses_void_ratio   = true;
+        static constexpr bool        has_yield_surface = true;
+        static constexpr bool        has_loosest_state = true;
 
-        static constexpr double no_cutoff =
-          MohrCoulombStrength<double>::no_cutoff;
-
-        struct Parameters
+        struct Parameters : Elasticity
         {
-          MohrCoulombElasticity       elastic;
+          double friction_angle, dilatancy_angle = 0.; // degrees
+          double cohesion = 0., tension_cutoff = 0.;   // Pa
+          double largest_void_ratio = no_limit;        // of dilation
           MohrCoulombStrength<double> strength;
-          double                      largest_void_ratio; // of dilation
-          double                      tension;
 
-          /**
-           * @param E       Young's modulus, > 0. Units: Pa.
-           * @param nu      Poisson's ratio, 0 <= nu < 1/2.
-           * @param phi     Friction angle, 0 <= phi < pi/2. Units: rad.
-           * @param psi     Dilation angle, 0 <= psi <= phi. Units: rad.
-           * @param cohesion >= 0. Units: Pa.
-           * @param tension Tensile strength, >= 0; a huge value: no cut-off
-           *                below the apex. Units: Pa.
-           */
-          static Parameters
-          make(const double E,
-               const double nu,
-               const double phi,
-               const double psi,
-               const double cohesion,
-               const double tension)
+          void
+          derive()
           {
-            Parameters p;
-            p.elastic            = MohrCoulombElasticity::make(E, nu);
-            p.strength           = MohrCoulombStrength<double>::make(p.elastic,
-                                                           __builtin_sin(phi),
-                                                           __builtin_cos(phi),
-                                                           __builtin_sin(psi),
-                                                           cohesion,
-                                                           tension);
-            p.largest_void_ratio = no_limit;
-            p.tension            = tension;
-            return p;
+            Elasticity::derive();
+            const double phi = friction_angle * radians_per_degree,
+                         psi = dilatancy_angle * radians_per_degree;
+            strength         = MohrCoulombStrength<double>::make(*this,
+                                                         __builtin_sin(phi),
+                                                         __builtin_cos(phi),
+                                                         __builtin_sin(psi),
+                                                         cohesion,
+                                                         tension_cutoff);
           }
         };
 
-        static Parameters
-        make(const double *values)
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::friction_angle},
+          {&Parameters::dilatancy_angle, Entries::dilatancy_angle},
+          {&Parameters::cohesion, Entries::cohesion},
+          {&Parameters::tension_cutoff, Entries::tension_cutoff},
+          {&Parameters::largest_void_ratio, Entries::largest_void_ratio}};
+
+        static VolumeInShear
+        volume_in_shear(const Parameters &p)
         {
-          const LawValues<MohrCoulomb> value{values};
-          Parameters                   p =
-            Parameters::make(value("Youngs modulus"),
-                             value("Poisson ratio"),
-                             value("Friction angle") * radians_per_degree,
-                             value("Dilatancy angle") * radians_per_degree,
-                             value("Cohesion"),
-                             value("Tension cut-off"));
-          p.largest_void_ratio = value("Largest void ratio");
-          return p;
+          return p.strength.sin_psi > 0. ? VolumeInShear::gained :
+                                           VolumeInShear::kept;
         }
 
-        /** Whether the soil gains volume in plastic shear. */
-        static bool
-        dilates(const Parameters &p)
-        {
-          return p.strength.sin_psi > 0.;
-        }
-
-        /** Whether the strength is the same at all pressures. */
         static bool
         is_frictionless(const Parameters &p)
         {
@@ -107,7 +71,7 @@ namespace CaissonMPM
         static bool
         needs_void_ratio(const Parameters &p)
         {
-          return dilates(p);
+          return p.strength.sin_psi > 0.;
         }
 
         /**
@@ -137,20 +101,20 @@ namespace CaissonMPM
         }
 
         static bool
-        check(const double *values, const LawContext &, LawMessage &);
+        check(const Parameters &, const LawContext &, LawMessage &);
 
-        /** Whether the loosest state is looser than that at the start. */
+        /** Whether the loosest state is looser than that at the start, where
+         * this is the elastic compression. */
         static bool
-        check_loosest_state(const double     *values,
+        check_loosest_state(const Parameters &p,
                             const double      compression,
                             const LawContext &context,
                             LawMessage       &message);
 
         static const char *
-        warning(const double *values)
+        warning(const Parameters &p)
         {
-          const LawValues<MohrCoulomb> value{values};
-          return value("Dilatancy angle") > 0. ?
+          return p.dilatancy_angle > 0. ?
                    "Mohr-Coulomb sand with a dilatancy angle grows in volume at "
                    "the same rate up to Largest void ratio. A plug then heaves "
                    "two to three times as much as the wall displaces, and the "
@@ -158,22 +122,6 @@ namespace CaissonMPM
                    "density and stress, or the Largest void ratio of the "
                    "loosest state" :
                    nullptr;
-        }
-
-        /** 1 - sin phi (Jaky). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.strength.sin_phi;
-        }
-
-        template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        p_wave_modulus(const StressState<Number> & /*stress*/,
-                       const Number /*void_ratio*/,
-                       const Parameters &p)
-        {
-          return p.elastic.p_wave_modulus();
         }
 
         /** Add the elastic increment. Returns whether that is all; if not,
@@ -184,7 +132,7 @@ namespace CaissonMPM
                        const StrainIncrement<Number> &de,
                        const Parameters              &p)
         {
-          add_elastic_increment(sigma, de, p.elastic.lambda, p.elastic.mu);
+          add_elastic_increment(sigma, de, p.lambda, p.mu);
           return MohrCoulombReturn<Number, MohrCoulombStrength<double>>::
             is_surely_elastic(sigma, p.strength);
         }
@@ -203,7 +151,7 @@ namespace CaissonMPM
               if (any(loose))
                 {
                   update_loose(sigma, de, state, p, loose);
-                  const Number K(p.elastic.bulk);
+                  const Number K(p.bulk);
                   return close_gap(sigma,
                                    loose,
                                    compression(sigma, p),
@@ -225,7 +173,7 @@ namespace CaissonMPM
                                  const Parameters              &p)
         {
           MohrCoulombReturn<Number, MohrCoulombStrength<double>>::update(
-            sigma, de, state, p.elastic, p.strength);
+            sigma, de, state, p, p.strength);
         }
 
         /** The elastic compression, 0 in tension. */
@@ -233,7 +181,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] static inline Number
         compression(const StressState<Number> &s, const Parameters &p)
         {
-          return max(pressure(s) * Number(1. / p.elastic.bulk), Number(0.));
+          return max(pressure(s) * Number(1. / p.bulk), Number(0.));
         }
 
         template <typename Number>
@@ -283,7 +231,7 @@ namespace CaissonMPM
                                       after / max(before, Number(1e-30)),
                                       Number(1.));
           state.plastic_volumetric -=
-            (Number(1.) - share) * before * Number(1. / p.elastic.bulk);
+            (Number(1.) - share) * before * Number(1. / p.bulk);
           sigma = {share * sigma.rr,
                    share * sigma.zz,
                    share * sigma.tt,
@@ -304,14 +252,14 @@ namespace CaissonMPM
             sigma,
             de,
             state,
-            p.elastic,
+            p,
             Strength::make(
-              p.elastic,
+              p,
               Number(p.strength.sin_phi),
               Number(p.strength.cos_phi),
               select(loose, Number(0.), Number(p.strength.sin_psi)),
-              Number(p.strength.cohesion),
-              p.tension));
+              Number(p.cohesion),
+              p.tension_cutoff));
         }
       };
 
@@ -330,89 +278,68 @@ namespace CaissonMPM
                      LawMessage       &message)
       {
         if (dilatancy > friction)
-          {
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
-              "plastic flow would create energy. Lower the dilatancy angle.",
-              dilatancy,
-              friction);
-            return false;
-          }
+          return message.refuse(
+            "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
+            "plastic flow would create energy. Lower the dilatancy angle.",
+            dilatancy,
+            friction);
         const double s       = __builtin_sin(friction * radians_per_degree);
         const double passive = (1. + s) / (1. - s); // largest stress ratio
         const double k       = context.earth_pressure_at_rest;
         if (cohesion == 0. &&
             (k > passive * (1. + 1e-9) || k < (1. - 1e-9) / passive))
-          {
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "K0 = %g lies outside what Friction angle = %g degrees without "
-              "cohesion can carry (%g to %g). Change one of them.",
-              k,
-              friction,
-              1. / passive,
-              passive);
-            return false;
-          }
+          return message.refuse(
+            "K0 = %g lies outside what Friction angle = %g degrees without "
+            "cohesion can carry (%g to %g). Change one of them.",
+            k,
+            friction,
+            1. / passive,
+            passive);
         return true;
       }
 
       inline bool
-      MohrCoulomb::check(const double     *values,
+      MohrCoulomb::check(const Parameters &p,
                          const LawContext &context,
                          LawMessage       &message)
       {
-        const LawValues<MohrCoulomb> value{values};
-        if (value("Dilatancy angle") > 0. &&
-            value("Largest void ratio") <= context.void_ratio)
-          {
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "Largest void ratio = %g does not exceed the void ratio %g at the "
-              "start, so that soil with Dilatancy angle = %g degrees cannot "
-              "dilate. Raise it, or set the dilatancy angle to 0.",
-              value("Largest void ratio"),
-              context.void_ratio,
-              value("Dilatancy angle"));
-            return false;
-          }
-        const double compression =
-          context.mean_stress / make(values).elastic.bulk;
-        return check_loosest_state(values, compression, context, message) &&
-               check_strength(value("Friction angle"),
-                              value("Dilatancy angle"),
-                              value("Cohesion"),
+        if (p.dilatancy_angle > 0. &&
+            p.largest_void_ratio <= context.void_ratio)
+          return message.refuse(
+            "Largest void ratio = %g does not exceed the void ratio %g at the "
+            "start, so that soil with Dilatancy angle = %g degrees cannot "
+            "dilate. Raise it, or set the dilatancy angle to 0.",
+            p.largest_void_ratio,
+            context.void_ratio,
+            p.dilatancy_angle);
+        return check_loosest_state(p,
+                                   context.mean_stress / p.bulk,
+                                   context,
+                                   message) &&
+               check_strength(p.friction_angle,
+                              p.dilatancy_angle,
+                              p.cohesion,
                               context,
                               message);
       }
 
       inline bool
-      MohrCoulomb::check_loosest_state(const double     *values,
+      MohrCoulomb::check_loosest_state(const Parameters &p,
                                        const double      compression,
                                        const LawContext &context,
                                        LawMessage       &message)
       {
-        const LawValues<MohrCoulomb> value{values};
-        const double                 unloaded =
+        const double unloaded =
           (1. + context.void_ratio) * (1. + compression) - 1.;
-        if (value("Dilatancy angle") == 0. ||
-            value("Largest void ratio") > unloaded)
-          return true;
-        __builtin_snprintf(
-          message.text,
-          sizeof(message.text),
-          "Largest void ratio = %g: soil with the void ratio %g below a mean "
-          "stress of %g Pa at the start would have %g, unloaded. Raise it, or "
-          "set the dilatancy angle to 0.",
-          value("Largest void ratio"),
-          context.void_ratio,
-          context.mean_stress,
-          unloaded);
-        return false;
+        return p.dilatancy_angle == 0. || p.largest_void_ratio > unloaded ||
+               message.refuse(
+                 "Largest void ratio = %g: soil with the void ratio %g below a "
+                 "mean stress of %g Pa at the start would have %g, unloaded. "
+                 "Raise it, or set the dilatancy angle to 0.",
+                 p.largest_void_ratio,
+                 context.void_ratio,
+                 context.mean_stress,
+                 unloaded);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -43,102 +43,89 @@ namespace CaissonMPM
       /** The law "Mohr-Coulomb by density and stress": strength, dilatancy and
        * stiffness of each point follow from its void ratio and mean stress. See
        * the head of the file. */
-      struct MohrCoulombDensity
+      struct MohrCoulombDensity : MaterialLaw
       {
         static constexpr const char *name =
           "Mohr-Coulomb by density and stress";
-        static constexpr LawEntry entries[] = {
-          Entries::youngs_modulus,
-          Entries::poisson_ratio,
-          Entries::critical_friction_angle,
-          Entries::minimum_void_ratio,
-          Entries::maximum_void_ratio,
-          {"Bolton Q",
-           "Q of Bolton's dilatancy index stands for the strength of the "
-           "grains: 10 for quartz and feldspar, 8 for limestone, 5.5 for chalk. "
-           "Units: none.",
-           10.,
-           4.,
-           15.},
-          {"Degrees per dilatancy index",
-           "The friction angle exceeds the critical one by this times Bolton's "
-           "dilatancy index: 3 in triaxial and 5 in plane strain. Units: "
-           "degrees.",
-           3.,
-           0.,
-           5.},
-          {"Smallest stress of strength",
-           "Below this mean effective stress Bolton's dilatancy index rises no "
-           "further. Units: Pa.",
-           1.5e5,
-           1.,
-           no_limit},
-          Entries::reference_stress,
-          Entries::stiffness_exponent,
-          Entries::smallest_stress_of_stiffness,
-          {"Reference void ratio",
-           "Young's modulus is that of this void ratio, and follows the density "
-           "by Hardin's (2.17 - e)2/(1 + e); with 0 it does not depend on the "
-           "density. Units: none.",
-           0.,
-           0.,
-           2.}};
-        static constexpr int friction_entry =
-                               entry_named(entries, "Critical friction angle"),
-                             n_state          = 0;
-        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true,
+                              has_loosest_state = true;
 
-        /** Angles in rad. */
-        struct Parameters
+        /** Those of the critical state: the largest void ratio is e_max. */
+        struct Parameters : MohrCoulombStiffening::Parameters
         {
-          // critical friction angle and no dilatancy; stiffness; e_max
-          MohrCoulombStiffening::Parameters critical;
-          double                            phi_c;
-          double critical_volume;                  // 1 + e_c below p_s
-          double inverse_range;                    // 1 / (e_max - e_min)
-          double ln_crushing;                      // of 1 kPa exp(Q), in Pa
-          double angle_per_index, smallest_stress; // rad, Pa
-          double per_reference; // 1 / F(e_r); 0: no influence of the density
+          double minimum_void_ratio, bolton_q, degrees_per_index; // entries
+          double smallest_stress, reference_void_ratio;           // entries
+
+          double phi_c;           // rad
+          double critical_volume; // 1 + e_c below p_s
+          double inverse_range;   // 1 / (e_max - e_min)
+          double ln_crushing;     // of 1 kPa exp(Q), in Pa
+          double angle_per_index; // rad
+          double per_reference;   // 1 / F(e_r); 0: density has no influence
+
+          void
+          derive()
+          {
+            MohrCoulombStiffening::Parameters::derive();
+            constexpr double ln_kPa = 6.907755278982137; // ln 1000
+            const double     e_max  = largest_void_ratio,
+                         range      = e_max - minimum_void_ratio;
+            phi_c                   = friction_angle * radians_per_degree;
+            inverse_range           = 1. / range;
+            ln_crushing             = bolton_q + ln_kPa;
+            critical_volume =
+              1. + e_max -
+              range / (ln_crushing - __builtin_log(smallest_stress));
+            angle_per_index = degrees_per_index * radians_per_degree;
+            per_reference   = reference_void_ratio > 0. ?
+                                1. / hardin(Lanes<1>(reference_void_ratio))[0] :
+                                0.;
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<MohrCoulombDensity> value{values};
-          const double     critical[] = {value("Youngs modulus"),
-                                         value("Poisson ratio"),
-                                         value("Critical friction angle"),
-                                         0.,
-                                         0.,
-                                         0.,
-                                         value("Maximum void ratio"),
-                                         value("Reference stress"),
-                                         value("Stiffness exponent"),
-                                         value("Smallest stress of stiffness")};
-          constexpr double ln_kPa     = 6.907755278982137; // ln 1000
-          const double     range      = value("Maximum void ratio") -
-                               value("Minimum void ratio"),
-                       ln_crushing = value("Bolton Q") + ln_kPa,
-                       of_strength =
-                         ln_crushing -
-                         __builtin_log(value("Smallest stress of strength"));
-          return {MohrCoulombStiffening::make(critical),
-                  value("Critical friction angle") * radians_per_degree,
-                  1. + value("Maximum void ratio") - range / of_strength,
-                  1. / range,
-                  ln_crushing,
-                  value("Degrees per dilatancy index") * radians_per_degree,
-                  value("Smallest stress of strength"),
-                  value("Reference void ratio") > 0. ?
-                    1. / hardin(Lanes<1>(value("Reference void ratio")))[0] :
-                    0.};
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::critical_friction_angle},
+          {&Parameters::minimum_void_ratio, Entries::minimum_void_ratio},
+          {&Parameters::largest_void_ratio, Entries::maximum_void_ratio},
+          {&Parameters::bolton_q,
+           {"Bolton Q",
+            "",
+            "Q of Bolton's dilatancy index stands for the strength of the grains: 10 for quartz and feldspar, 8 for limestone, 5.5 for chalk.",
+            10.,
+            4.,
+            15.}},
+          {&Parameters::degrees_per_index,
+           {"Degrees per dilatancy index",
+            "degrees",
+            "The friction angle exceeds the critical one by this times Bolton's dilatancy index: 3 in triaxial and 5 in plane strain.",
+            3.,
+            0.,
+            5.}},
+          {&Parameters::smallest_stress,
+           {"Smallest stress of strength",
+            "Pa",
+            "Below this mean effective stress Bolton's dilatancy index rises no further.",
+            1.5e5,
+            1.,
+            no_limit}},
+          {&Parameters::reference_stress, Entries::reference_stress},
+          {&Parameters::stiffness_exponent, Entries::stiffness_exponent},
+          {&Parameters::smallest_stress_of_stiffness,
+           Entries::smallest_stress_of_stiffness},
+          {&Parameters::reference_void_ratio,
+           {"Reference void ratio",
+            "",
+            "Young's modulus is that of this void ratio, and follows the density by Hardin's (2.17 - e)2/(1 + e); with 0 it does not depend on the density.",
+            0.,
+            0.,
+            2.}}};
 
-        /** Whether the soil gains volume in plastic shear. */
-        static bool
-        dilates(const Parameters & /*p*/)
+        static VolumeInShear
+        volume_in_shear(const Parameters &)
         {
-          return true;
+          return VolumeInShear::gained;
         }
 
         template <typename Number>
@@ -146,7 +133,7 @@ namespace CaissonMPM
         loosest_void_ratio(const StressState<Number> & /*sigma*/,
                            const Parameters &p)
         {
-          return Number(e_max(p));
+          return Number(p.largest_void_ratio);
         }
 
         /** Whether sand is as loose as in its critical state below p_s, and
@@ -162,65 +149,44 @@ namespace CaissonMPM
         }
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<MohrCoulombDensity> value{values};
-          const double e_min = value("Minimum void ratio"),
-                       e_max = value("Maximum void ratio"),
+          const double e_min = p.minimum_void_ratio,
+                       e_max = p.largest_void_ratio,
                        phi =
-                         value("Critical friction angle") +
-                         largest_index * value("Degrees per dilatancy index"),
+                         p.friction_angle + largest_index * p.degrees_per_index,
                        psi = __builtin_asin(
                                sine_of_dilatancy(Lanes<1>(largest_index))[0]) /
                              radians_per_degree;
           if (!(e_min > 0. && e_min < e_max))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "The law needs Minimum void ratio = %g above 0 and below "
-                "Maximum void ratio = %g. Set both.",
-                e_min,
-                e_max);
-              return false;
-            }
+            return message.refuse(
+              "The law needs Minimum void ratio = %g above 0 and below "
+              "Maximum void ratio = %g. Set both.",
+              e_min,
+              e_max);
           if (psi > phi)
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Critical friction angle = %g and Degrees per dilatancy index = "
-                "%g give a friction angle of %g degrees to sand with a "
-                "dilatancy angle of %.3g: plastic flow would create energy. "
-                "Raise one of them.",
-                value("Critical friction angle"),
-                value("Degrees per dilatancy index"),
-                phi,
-                psi);
-              return false;
-            }
-          return check_density(values, context, message) &&
-                 check_at_rest(values, context, message);
+            return message.refuse(
+              "Critical friction angle = %g and Degrees per dilatancy index = "
+              "%g give a friction angle of %g degrees to sand with a "
+              "dilatancy angle of %.3g: plastic flow would create energy. "
+              "Raise one of them.",
+              p.friction_angle,
+              p.degrees_per_index,
+              phi,
+              psi);
+          return check_density(p, context, message) &&
+                 check_at_rest(p, context, message);
         }
 
         static const char *
-        warning(const double *values)
+        warning(const Parameters &p)
         {
-          const LawValues<MohrCoulombDensity> value{values};
-          if (value("Smallest stress of strength") < 1e3)
+          if (p.smallest_stress < 1e3)
             return "Smallest stress of strength is usually 1.5e5 Pa: check its "
                    "unit";
-          return warning_of_stiffness(value("Reference stress"),
-                                      value("Smallest stress of stiffness"));
-        }
-
-        /** 1 - sin phi_c (Jaky). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.critical.reference.strength.sin_phi;
+          return p.StiffnessByStress::warning();
         }
 
         template <typename Number>
@@ -229,8 +195,7 @@ namespace CaissonMPM
                        const Number               void_ratio,
                        const Parameters          &p)
         {
-          return stiffening(stress, void_ratio, p) *
-                 Number(p.critical.reference.elastic.p_wave_modulus());
+          return stiffening(stress, void_ratio, p) * Number(p.p_wave_modulus());
         }
 
         template <typename Number>
@@ -240,14 +205,13 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          const MohrCoulomb::Parameters &reference = p.critical.reference;
           const Number factor = stiffening(sigma, state.void_ratio, p);
           const StrainIncrement<Number> stiffer = scaled(factor, de);
           // most sand is far from yield even with its critical strength
           StressState<Number> trial = sigma;
           const bool          is_elastic =
-            MohrCoulomb::update_elastic(trial, stiffer, reference);
-          const auto has_gap = state.void_ratio > Number(e_max(p));
+            MohrCoulomb::update_elastic(trial, stiffer, p);
+          const auto has_gap = state.void_ratio > Number(p.largest_void_ratio);
           if (is_elastic && !any(has_gap))
             {
               sigma = trial;
@@ -255,19 +219,15 @@ namespace CaissonMPM
             }
           const LawState<Number> before = state;
           MohrCoulombReturn<Number, MohrCoulombStrength<Number>>::update(
-            sigma,
-            stiffer,
-            state,
-            reference.elastic,
-            strength(sigma, state.void_ratio, p));
+            sigma, stiffer, state, p, strength(sigma, state.void_ratio, p));
           if (any(has_gap))
             MohrCoulomb::close_gap(sigma,
                                    has_gap,
                                    Number(0.),
-                                   factor * Number(reference.elastic.bulk),
+                                   factor * Number(p.bulk),
                                    MohrCoulomb::grown(state.void_ratio, de),
                                    state,
-                                   reference);
+                                   p);
           scale_plastic_strain(Number(1.) / factor, before, state);
         }
 
@@ -278,100 +238,72 @@ namespace CaissonMPM
         /** Whether the void ratios, and Bolton's numbers, are those of a sand.
          */
         static bool
-        check_density(const double     *values,
+        check_density(const Parameters &p,
                       const LawContext &context,
                       LawMessage       &message)
         {
-          const LawValues<MohrCoulombDensity> value{values};
-          const double e_min   = value("Minimum void ratio"),
-                       e_max   = value("Maximum void ratio");
+          const double e_min   = p.minimum_void_ratio,
+                       e_max   = p.largest_void_ratio;
           const double density = (e_max - context.void_ratio) / (e_max - e_min),
-                       reference    = value("Reference void ratio"),
+                       reference    = p.reference_void_ratio,
                        of_reference = (e_max - reference) / (e_max - e_min),
-                       critical =
-                         1. / (value("Bolton Q") -
-                               __builtin_log(
-                                 value("Smallest stress of strength") / 1e3));
+                       critical     = 1. / (p.bolton_q -
+                                        __builtin_log(p.smallest_stress / 1e3));
           if (density < -1e-9 || density > densest)
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "The void ratio at the start, %g, is a relative density of %.3g "
-                "with Minimum void ratio = %g and Maximum void ratio = %g. It "
-                "must be from 0 to %g: change one of them.",
-                context.void_ratio,
-                density,
-                e_min,
-                e_max,
-                densest);
-              return false;
-            }
+            return message.refuse(
+              "The void ratio at the start, %g, is a relative density of %.3g "
+              "with Minimum void ratio = %g and Maximum void ratio = %g. It "
+              "must be from 0 to %g: change one of them.",
+              context.void_ratio,
+              density,
+              e_min,
+              e_max,
+              densest);
           if (reference > 0. && (of_reference < 0. || of_reference > densest))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Reference void ratio = %g is a relative density of %.3g with "
-                "Minimum void ratio = %g and Maximum void ratio = %g. Set the "
-                "void ratio that Youngs modulus belongs to, or 0.",
-                reference,
-                of_reference,
-                e_min,
-                e_max);
-              return false;
-            }
+            return message.refuse(
+              "Reference void ratio = %g is a relative density of %.3g with "
+              "Minimum void ratio = %g and Maximum void ratio = %g. Set the "
+              "void ratio that Youngs modulus belongs to, or 0.",
+              reference,
+              of_reference,
+              e_min,
+              e_max);
           if (!(critical > 0. && critical < largest_critical_density))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
-                "the sand no critical state below a relative density of %g. "
-                "Raise the one or reduce the other.",
-                value("Bolton Q"),
-                value("Smallest stress of strength"),
-                largest_critical_density);
-              return false;
-            }
+            return message.refuse(
+              "Bolton Q = %g and Smallest stress of strength = %g Pa leave "
+              "the sand no critical state below a relative density of %g. "
+              "Raise the one or reduce the other.",
+              p.bolton_q,
+              p.smallest_stress,
+              largest_critical_density);
           return true;
         }
 
         /** Whether the sand carries K0 at its density and mean stress. */
         static bool
-        check_at_rest(const double     *values,
+        check_at_rest(const Parameters &p,
                       const LawContext &context,
                       LawMessage       &message)
         {
-          const LawValues<MohrCoulombDensity> value{values};
-          const double                        mean = context.mean_stress;
-          const double                        s =
-            strength(StressState<Lanes<1>>{-mean, -mean, -mean, 0.},
-                     Lanes<1>(context.void_ratio),
-                     make(values))
-              .sin_phi[0];
+          const double mean = context.mean_stress,
+                       s    = strength(
+                             StressState<Lanes<1>>{-mean, -mean, -mean, 0.},
+                             Lanes<1>(context.void_ratio),
+                             p)
+                             .sin_phi[0];
           const double passive = (1. + s) / (1. - s),
                        k       = context.earth_pressure_at_rest;
           if (k <= passive && k >= 1. / passive)
             return true;
-          __builtin_snprintf(
-            message.text,
-            sizeof(message.text),
+          return message.refuse(
             "K0 = %g lies outside what sand of the void ratio %g carries with "
             "Critical friction angle = %g degrees (%.3g to %.3g). Change one of "
             "them.",
             k,
             context.void_ratio,
-            value("Critical friction angle"),
+            p.friction_angle,
             1. / passive,
             passive);
-          return false;
-        }
-
-        static double
-        e_max(const Parameters &p)
-        {
-          return p.critical.reference.largest_void_ratio;
         }
 
         /** F. */
@@ -393,8 +325,7 @@ namespace CaissonMPM
                    const Number               void_ratio,
                    const Parameters          &p)
         {
-          const Number by_stress =
-            MohrCoulombStiffening::stiffening(s, p.critical);
+          const Number by_stress = p.stiffening(s);
           return p.per_reference > 0. ?
                    Number(p.per_reference) * hardin(void_ratio) * by_stress :
                    by_stress;
@@ -416,9 +347,9 @@ namespace CaissonMPM
                  const Number               void_ratio,
                  const Parameters          &p)
         {
-          const Number p_mean = max(pressure(s), Number(p.smallest_stress));
-          const Number density =
-            (Number(e_max(p)) - void_ratio) * Number(p.inverse_range);
+          const Number p_mean  = max(pressure(s), Number(p.smallest_stress));
+          const Number density = (Number(p.largest_void_ratio) - void_ratio) *
+                                 Number(p.inverse_range);
           const Number index =
             min(max(density * (Number(p.ln_crushing) - log(p_mean)) -
                       Number(1.),
@@ -426,7 +357,7 @@ namespace CaissonMPM
                 Number(largest_index));
           const Number sin_phi =
             sin(Number(p.phi_c) + Number(p.angle_per_index) * index);
-          return MohrCoulombStrength<Number>::make(p.critical.reference.elastic,
+          return MohrCoulombStrength<Number>::make(p,
                                                    sin_phi,
                                                    sqrt(Number(1.) -
                                                         sin_phi * sin_phi),

@@ -59,33 +59,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Elastic constants of Mohr-Coulomb. Units: Pa, poisson: none. */
-      struct MohrCoulombElasticity
-      {
-        double lambda, mu, bulk, poisson;
-
-        /** nu / (1 - nu), the elastic earth pressure at rest. */
-        double oedometric;
-
-        /** lambda + 2 mu, the largest stiffness, which sets the time step. */
-        double
-        p_wave_modulus() const
-        {
-          return lambda + 2. * mu;
-        }
-
-        /** From Young's modulus [Pa], > 0, and 0 <= nu < 1/2. */
-        static MohrCoulombElasticity
-        make(const double E, const double nu)
-        {
-          return {E * nu / ((1. + nu) * (1. - 2. * nu)),
-                  0.5 * E / (1. + nu),
-                  E / (3. * (1. - 2. * nu)),
-                  nu,
-                  nu / (1. - nu)};
-        }
-      };
-
       /**
        * The strength and what follows from it. Real is double where all MPs
        * share it, or a number of lanes where each has its own.
@@ -119,12 +92,12 @@ namespace CaissonMPM
 
         /** The sines and cosines suit 0 <= psi <= phi < pi/2. */
         [[gnu::always_inline]] static inline MohrCoulombStrength
-        make(const MohrCoulombElasticity &elastic,
-             const Real                   sin_phi,
-             const Real                   cos_phi,
-             const Real                   sin_psi,
-             const Real                   cohesion,
-             const double                 tension);
+        make(const Elasticity &elastic,
+             const Real        sin_phi,
+             const Real        cos_phi,
+             const Real        sin_psi,
+             const Real        cohesion,
+             const double      tension);
       };
 
       /**
@@ -147,7 +120,7 @@ namespace CaissonMPM
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,
-               const MohrCoulombElasticity   &elastic,
+               const Elasticity              &elastic,
                const Strength                &strength);
 
         /**
@@ -169,9 +142,9 @@ namespace CaissonMPM
 
         /** Steps 2 and 3, for trial stresses that step 1 leaves above T. */
         [[gnu::always_inline]] static inline Stress
-        to_cutoff(const Stress                &trial,
-                  const MohrCoulombElasticity &elastic,
-                  const Strength              &strength);
+        to_cutoff(const Stress     &trial,
+                  const Elasticity &elastic,
+                  const Strength   &strength);
 
       private:
         /** f of the major and the minor stress. Units: Pa. */
@@ -190,10 +163,10 @@ namespace CaissonMPM
 
         /** Add the plastic strain that took @p trial to @p final_stress. */
         [[gnu::always_inline]] static inline void
-        accumulate(LawState<Number>            &state,
-                   const Stress                &trial,
-                   const Stress                &final_stress,
-                   const MohrCoulombElasticity &elastic);
+        accumulate(LawState<Number> &state,
+                   const Stress     &trial,
+                   const Stress     &final_stress,
+                   const Elasticity &elastic);
       };
 
       [[gnu::always_inline]] inline double
@@ -228,12 +201,12 @@ namespace CaissonMPM
 
       template <typename Real>
       [[gnu::always_inline]] inline MohrCoulombStrength<Real>
-      MohrCoulombStrength<Real>::make(const MohrCoulombElasticity &elastic,
-                                      const Real                   sin_phi,
-                                      const Real                   cos_phi,
-                                      const Real                   sin_psi,
-                                      const Real                   cohesion,
-                                      const double                 tension)
+      MohrCoulombStrength<Real>::make(const Elasticity &elastic,
+                                      const Real        sin_phi,
+                                      const Real        cos_phi,
+                                      const Real        sin_psi,
+                                      const Real        cohesion,
+                                      const double      tension)
       {
         MohrCoulombStrength p;
         p.sin_phi  = sin_phi;
@@ -272,7 +245,7 @@ namespace CaissonMPM
         StressState<Number>           &sigma,
         const StrainIncrement<Number> &de,
         LawState<Number>              &state,
-        const MohrCoulombElasticity   &elastic,
+        const Elasticity              &elastic,
         const Strength                &strength)
       {
         add_elastic_increment(sigma, de, elastic.lambda, elastic.mu);
@@ -336,10 +309,9 @@ namespace CaissonMPM
 
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline PrincipalStresses<Number>
-      MohrCoulombReturn<Number, Strength>::to_cutoff(
-        const Stress                &trial,
-        const MohrCoulombElasticity &elastic,
-        const Strength              &p)
+      MohrCoulombReturn<Number, Strength>::to_cutoff(const Stress     &trial,
+                                                     const Elasticity &elastic,
+                                                     const Strength   &p)
       {
         const Number T(p.tension_cutoff), t(p.minor_at_cutoff);
         const Number excess_major  = trial.major - T;
@@ -351,13 +323,14 @@ namespace CaissonMPM
         const Mask   edge = plane_middle > T;
         const Number fall =
           select(edge,
-                 elastic.poisson * (excess_major + excess_middle),
+                 elastic.poisson_ratio * (excess_major + excess_middle),
                  elastic.oedometric * excess_major);
         const Number minor = min(trial.minor - fall, T);
 
         // on s1 = T and the cone
         const Number line_middle =
-          trial.middle - elastic.poisson * (excess_major + (trial.minor - t));
+          trial.middle -
+          elastic.poisson_ratio * (excess_major + (trial.minor - t));
         const Mask on_cone = minor < t;
         return {T,
                 select(on_cone,
@@ -369,10 +342,10 @@ namespace CaissonMPM
       template <typename Number, typename Strength>
       [[gnu::always_inline]] inline void
       MohrCoulombReturn<Number, Strength>::accumulate(
-        LawState<Number>            &state,
-        const Stress                &trial,
-        const Stress                &final_stress,
-        const MohrCoulombElasticity &elastic)
+        LawState<Number> &state,
+        const Stress     &trial,
+        const Stress     &final_stress,
+        const Elasticity &elastic)
       {
         const Number major  = trial.major - final_stress.major;
         const Number middle = trial.middle - final_stress.middle;

@@ -35,77 +35,72 @@ namespace CaissonMPM
     {
       /** The law "Mohr-Coulomb with softening": the strength of each point
        * follows from its plastic strain. See the head of the file. */
-      struct MohrCoulombSoftening
+      struct MohrCoulombSoftening : ElasticLaw
       {
-        static constexpr const char *name      = "Mohr-Coulomb with softening";
-        static constexpr LawEntry    entries[] = {
-             Entries::youngs_modulus,
-             Entries::poisson_ratio,
-             Entries::friction_angle,
-             Entries::dilatancy_angle,
-             Entries::cohesion,
-             Entries::tension_cutoff,
-             {"Residual friction angle",
-              "The residual friction angle is that after much plastic strain. "
-                 "Units: degrees.",
-              30.,
-              0.,
-              60.},
-             {"Residual dilatancy angle",
-              "The residual dilatancy angle is that after much plastic strain. "
-                 "Units: degrees.",
-              0.,
-              0.,
-              60.},
-             {"Residual cohesion",
-              "The residual cohesion is that after much plastic strain. Units: Pa.",
-              0.,
-              0.,
-              no_limit},
-             {"Softening shape factor",
-              "The strength falls from its peak to its residual value with "
-                 "exp(-eta e), where eta is this factor and e the accumulated "
-                 "deviatoric plastic strain. Units: none.",
-              10.,
-              0.,
-              no_limit}};
-        static constexpr int friction_entry =
-                               entry_named(entries, "Friction angle"),
-                             n_state            = 0;
-        static constexpr bool uses_void_ratio   = false;
-        static constexpr bool stiffness_varies  = false;
-        static constexpr bool has_yield_surface = true;
+        static constexpr const char *name = "Mohr-Coulomb with softening";
+        static constexpr bool        has_yield_surface = true;
 
-        /** Angles in rad, stresses in Pa. */
-        struct Parameters
+        struct Parameters : Elasticity
         {
-          MohrCoulombElasticity elastic;
-          double                phi, psi, cohesion; // residual
+          double friction_angle, dilatancy_angle, cohesion, tension_cutoff;
+          double residual_friction, residual_dilatancy, residual_cohesion;
+          double shape_factor;
+
+          double phi, psi;                          // residual, rad
           double phi_lost, psi_lost, cohesion_lost; // peak - residual
-          double rate, tension;
+
+          void
+          derive()
+          {
+            Elasticity::derive();
+            phi           = residual_friction * radians_per_degree;
+            psi           = residual_dilatancy * radians_per_degree;
+            phi_lost      = friction_angle * radians_per_degree - phi;
+            psi_lost      = dilatancy_angle * radians_per_degree - psi;
+            cohesion_lost = cohesion - residual_cohesion;
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<MohrCoulombSoftening> value{values};
-          const auto angle = [value](const char *name) {
-            return value(name) * radians_per_degree;
-          };
-          return {MohrCoulombElasticity::make(value("Youngs modulus"),
-                                              value("Poisson ratio")),
-                  angle("Residual friction angle"),
-                  angle("Residual dilatancy angle"),
-                  value("Residual cohesion"),
-                  angle("Friction angle") - angle("Residual friction angle"),
-                  angle("Dilatancy angle") - angle("Residual dilatancy angle"),
-                  value("Cohesion") - value("Residual cohesion"),
-                  value("Softening shape factor"),
-                  value("Tension cut-off")};
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::friction_angle},
+          {&Parameters::dilatancy_angle, Entries::dilatancy_angle},
+          {&Parameters::cohesion, Entries::cohesion},
+          {&Parameters::tension_cutoff, Entries::tension_cutoff},
+          {&Parameters::residual_friction,
+           {"Residual friction angle",
+            "degrees",
+            "The residual friction angle is that after much plastic strain.",
+            30.,
+            0.,
+            60.}},
+          {&Parameters::residual_dilatancy,
+           {"Residual dilatancy angle",
+            "degrees",
+            "The residual dilatancy angle is that after much plastic strain.",
+            0.,
+            0.,
+            60.}},
+          {&Parameters::residual_cohesion,
+           {"Residual cohesion",
+            "Pa",
+            "The residual cohesion is that after much plastic strain.",
+            0.,
+            0.,
+            no_limit}},
+          {&Parameters::shape_factor,
+           {"Softening shape factor",
+            "",
+            "The strength falls from its peak to its residual value with "
+            "exp(-eta e), where eta is this factor and e the accumulated "
+            "deviatoric plastic strain.",
+            10.,
+            0.,
+            no_limit}}};
 
         static const char *
-        warning(const double * /*values*/)
+        warning(const Parameters &)
         {
           return "softening needs an Internal length: without it, shear bands "
                  "are about a cell wide, so compare meshes: see "
@@ -113,59 +108,54 @@ namespace CaissonMPM
         }
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<MohrCoulombSoftening> value{values};
-          static constexpr const char          *softening[][2] = {
-                     {"Friction angle", "Residual friction angle"},
-                     {"Dilatancy angle", "Residual dilatancy angle"},
-                     {"Cohesion", "Residual cohesion"}};
-          for (const auto &[peak, residual] : softening)
-            if (value(residual) > value(peak))
-              {
-                __builtin_snprintf(message.text,
-                                   sizeof(message.text),
-                                   "%s = %g exceeds %s = %g: the law softens. "
-                                   "Lower the residual value.",
-                                   residual,
-                                   value(residual),
-                                   peak,
-                                   value(peak));
-                return false;
-              }
-          if (value("Residual dilatancy angle") >
-              value("Residual friction angle"))
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "Residual dilatancy angle = %g exceeds Residual friction "
-                "angle = %g degrees: plastic flow would create energy. Lower "
-                "the dilatancy angle.",
-                value("Residual dilatancy angle"),
-                value("Residual friction angle"));
-              return false;
-            }
-          return check_strength(value("Friction angle"),
-                                value("Dilatancy angle"),
-                                value("Cohesion"),
-                                context,
-                                message);
+          const struct
+          {
+            const char *peak, *residual;
+            double      at_peak, at_residual;
+          } softening[] = {
+            {"Friction angle",
+             "Residual friction angle",
+             p.friction_angle,
+             p.residual_friction},
+            {"Dilatancy angle",
+             "Residual dilatancy angle",
+             p.dilatancy_angle,
+             p.residual_dilatancy},
+            {"Cohesion", "Residual cohesion", p.cohesion, p.residual_cohesion}};
+          for (const auto &s : softening)
+            if (s.at_residual > s.at_peak)
+              return message.refuse("%s = %g exceeds %s = %g: the law softens. "
+                                    "Lower the residual value.",
+                                    s.residual,
+                                    s.at_residual,
+                                    s.peak,
+                                    s.at_peak);
+          if (p.residual_dilatancy > p.residual_friction)
+            return message.refuse(
+              "Residual dilatancy angle = %g exceeds Residual friction "
+              "angle = %g degrees: plastic flow would create energy. Lower "
+              "the dilatancy angle.",
+              p.residual_dilatancy,
+              p.residual_friction);
+          return check_strength(
+            p.friction_angle, p.dilatancy_angle, p.cohesion, context, message);
         }
 
-        /** Whether the soil gains volume in plastic shear. */
-        static bool
-        dilates(const Parameters &p)
+        static VolumeInShear
+        volume_in_shear(const Parameters &p)
         {
-          return p.psi + p.psi_lost > 0.;
+          return p.dilatancy_angle > 0. ? VolumeInShear::gained :
+                                          VolumeInShear::kept;
         }
 
         static bool
         is_frictionless(const Parameters &p)
         {
-          return p.phi == 0. && p.phi_lost == 0.;
+          return p.friction_angle == 0.;
         }
 
         /** 1 - sin phi of the peak (Jaky). */
@@ -176,36 +166,28 @@ namespace CaissonMPM
         }
 
         template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        p_wave_modulus(const StressState<Number> & /*stress*/,
-                       const Number /*void_ratio*/,
-                       const Parameters &p)
-        {
-          return p.elastic.p_wave_modulus();
-        }
-
-        template <typename Number>
         [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
                const StrainIncrement<Number> &de,
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          using Strength    = MohrCoulombStrength<Number>;
-          const Number left = exp(Number(-p.rate) * state.plastic_deviatoric);
-          const Number phi  = p.phi + p.phi_lost * left;
-          const Number psi  = p.psi + p.psi_lost * left;
+          using Strength = MohrCoulombStrength<Number>;
+          const Number left =
+            exp(Number(-p.shape_factor) * state.plastic_deviatoric);
+          const Number phi = p.phi + p.phi_lost * left;
+          const Number psi = p.psi + p.psi_lost * left;
           MohrCoulombReturn<Number, Strength>::update(
             sigma,
             de,
             state,
-            p.elastic,
-            Strength::make(p.elastic,
+            p,
+            Strength::make(p,
                            sin(phi),
                            cos(phi),
                            sin(psi),
-                           p.cohesion + p.cohesion_lost * left,
-                           p.tension));
+                           p.residual_cohesion + p.cohesion_lost * left,
+                           p.tension_cutoff));
         }
       };
 

@@ -32,67 +32,36 @@ namespace CaissonMPM
       /** The law "Mohr-Coulomb with stiffness by stress": the strength is that
        * of Mohr-Coulomb, the stiffness of each point follows from its stress.
        * See the head of the file. */
-      struct MohrCoulombStiffening
+      struct MohrCoulombStiffening : MohrCoulomb
       {
         static constexpr const char *name =
           "Mohr-Coulomb with stiffness by stress";
-        static constexpr LawEntry entries[] = {
-          Entries::youngs_modulus,
-          Entries::poisson_ratio,
-          Entries::friction_angle,
-          Entries::dilatancy_angle,
-          Entries::cohesion,
-          Entries::tension_cutoff,
-          Entries::largest_void_ratio,
-          Entries::reference_stress,
-          Entries::stiffness_exponent,
-          Entries::smallest_stress_of_stiffness};
-        static constexpr int friction_entry    = MohrCoulomb::friction_entry,
-                             n_state           = 0;
-        static constexpr bool uses_void_ratio  = MohrCoulomb::uses_void_ratio,
-                              stiffness_varies = true;
+        static constexpr bool stiffness_varies  = true,
+                              has_yield_surface = false;
 
-        struct Parameters
+        /** The elasticity is that at the reference stress. */
+        struct Parameters : MohrCoulomb::Parameters, StiffnessByStress
         {
-          MohrCoulomb::Parameters reference; // at the reference stress
-          StiffnessByStress       stiffness;
-
           /** Of the elastic compression by the pressure p: that strain over p
            * over the bulk modulus at p, 1 / (1 - m). */
           double compression;
+
+          void
+          derive()
+          {
+            MohrCoulomb::Parameters::derive();
+            StiffnessByStress::derive();
+            compression =
+              1. / (1. - (stiffness_exponent < .9 ? stiffness_exponent : .9));
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<MohrCoulombStiffening> value{values};
-          return {MohrCoulomb::make(values),
-                  StiffnessByStress::make(value("Reference stress"),
-                                          value("Stiffness exponent"),
-                                          value(
-                                            "Smallest stress of stiffness")),
-                  1. / (1. - (value("Stiffness exponent") < .9 ?
-                                value("Stiffness exponent") :
-                                .9))};
-        }
-
-        static bool
-        dilates(const Parameters &p)
-        {
-          return MohrCoulomb::dilates(p.reference);
-        }
-
-        static bool
-        is_frictionless(const Parameters &p)
-        {
-          return MohrCoulomb::is_frictionless(p.reference);
-        }
-
-        static bool
-        needs_void_ratio(const Parameters &p)
-        {
-          return MohrCoulomb::needs_void_ratio(p.reference);
-        }
+        static constexpr auto entries = joined<Parameters>(
+          MohrCoulomb::entries,
+          {{&Parameters::reference_stress, Entries::reference_stress},
+           {&Parameters::stiffness_exponent, Entries::stiffness_exponent},
+           {&Parameters::smallest_stress_of_stiffness,
+            Entries::smallest_stress_of_stiffness}});
 
         /** That of MohrCoulomb with the integral of dp / K. */
         template <typename Number>
@@ -100,7 +69,7 @@ namespace CaissonMPM
         loosest_void_ratio(const StressState<Number> &sigma,
                            const Parameters          &p)
         {
-          return Number(1. + p.reference.largest_void_ratio) /
+          return Number(1. + p.largest_void_ratio) /
                    (Number(1.) +
                     compression(sigma, bulk_modulus(sigma, p), p)) -
                  Number(1.);
@@ -118,58 +87,39 @@ namespace CaissonMPM
                                                      p),
                                          volume,
                                          volume_of_solids,
-                                         p.reference);
+                                         p);
         }
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const Parameters            p = make(values);
           const StressState<Lanes<1>> s{-context.mean_stress,
                                         -context.mean_stress,
                                         -context.mean_stress,
                                         0.};
           const LawContext unstressed = {context.earth_pressure_at_rest,
                                          context.void_ratio};
-          return MohrCoulomb::check(values, unstressed, message) &&
-                 MohrCoulomb::check_loosest_state(
-                   values,
-                   compression(s, bulk_modulus(s, p), p)[0],
-                   context,
-                   message);
+          return MohrCoulomb::check(p, unstressed, message) &&
+                 check_loosest_state(p,
+                                     compression(s, bulk_modulus(s, p), p)[0],
+                                     context,
+                                     message);
         }
 
         static const char *
-        warning(const double *values)
+        warning(const Parameters &p)
         {
-          const LawValues<MohrCoulombStiffening> value{values};
-          const char *const                      text =
-            warning_of_stiffness(value("Reference stress"),
-                                 value("Smallest stress of stiffness"));
-          return text != nullptr ? text : MohrCoulomb::warning(values);
-        }
-
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return MohrCoulomb::earth_pressure_at_rest(p.reference);
-        }
-
-        /** E / E_ref. */
-        template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        stiffening(const StressState<Number> &s, const Parameters &p)
-        {
-          return p.stiffness(s);
+          const char *const text = p.StiffnessByStress::warning();
+          return text != nullptr ? text : MohrCoulomb::warning(p);
         }
 
         template <typename Number>
         [[gnu::always_inline]] static inline Number
         bulk_modulus(const StressState<Number> &s, const Parameters &p)
         {
-          return Number(p.reference.elastic.bulk) * stiffening(s, p);
+          return Number(p.bulk) * p.stiffening(s);
         }
 
         /** The elastic compression by a stress that has this bulk modulus. */
@@ -189,8 +139,8 @@ namespace CaissonMPM
                        const Number               void_ratio,
                        const Parameters          &p)
         {
-          return stiffening(stress, p) *
-                 MohrCoulomb::p_wave_modulus(stress, void_ratio, p.reference);
+          return p.stiffening(stress) *
+                 MohrCoulomb::p_wave_modulus(stress, void_ratio, p);
         }
 
         template <typename Number>
@@ -200,16 +150,13 @@ namespace CaissonMPM
                LawState<Number>              &state,
                const Parameters              &p)
         {
-          const Number                  factor  = stiffening(sigma, p);
+          const Number                  factor  = p.stiffening(sigma);
           const LawState<Number>        before  = state;
           const StrainIncrement<Number> stiffer = scaled(factor, de);
           if (needs_void_ratio(p))
             update_dilatant(sigma, stiffer, de, state, p);
           else
-            MohrCoulomb::update_at_any_void_ratio(sigma,
-                                                  stiffer,
-                                                  state,
-                                                  p.reference);
+            update_at_any_void_ratio(sigma, stiffer, state, p);
           scale_plastic_strain(Number(1.) / factor, before, state);
         }
 
@@ -227,19 +174,16 @@ namespace CaissonMPM
           const auto loose =
             is_loosest(sigma, Number(1.) + state.void_ratio, Number(1.), p);
           if (!any(loose))
-            return MohrCoulomb::update_at_any_void_ratio(sigma,
-                                                         stiffer,
-                                                         state,
-                                                         p.reference);
-          MohrCoulomb::update_loose(sigma, stiffer, state, p.reference, loose);
+            return update_at_any_void_ratio(sigma, stiffer, state, p);
+          update_loose(sigma, stiffer, state, p, loose);
           const Number K = bulk_modulus(sigma, p);
-          MohrCoulomb::close_gap(sigma,
-                                 loose,
-                                 compression(sigma, K, p),
-                                 K,
-                                 MohrCoulomb::grown(state.void_ratio, de),
-                                 state,
-                                 p.reference);
+          close_gap(sigma,
+                    loose,
+                    compression(sigma, K, p),
+                    K,
+                    grown(state.void_ratio, de),
+                    state,
+                    p);
         }
       };
 

@@ -52,128 +52,123 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The law "NGI-ADP". See the head of the file. */
-      struct NgiAdp
+      struct NgiAdp : ElasticLaw
       {
-        static constexpr const char *name      = "NGI-ADP";
-        static constexpr LawEntry    entries[] = {
-             {"Active strength",
-              "The undrained shear strength s_uA of clay in active compression "
-                 "along the vertical. Units: Pa.",
-              10e3,
-              1e-3,
-              no_limit},
-             {"Direct shear strength ratio",
-              "The undrained shear strength of direct simple shear over the "
-                 "active one, s_uDSS / s_uA. Units: none.",
-              0.7,
-              0.05,
-              2.},
-             {"Passive strength ratio",
-              "The undrained shear strength of passive extension over the active "
-                 "one, s_uP / s_uA. Units: none.",
-              0.5,
-              0.05,
-              1.},
-             {"Active failure strain",
-              "The shear strain at failure in active compression, 3/2 of the "
-                 "axial strain. Units: none.",
-              0.02,
-              1e-5,
-              1.},
-             {"Direct shear failure strain",
-              "The shear strain at failure in direct simple shear. Units: none.",
-              0.04,
-              1e-5,
-              1.},
-             {"Passive failure strain",
-              "The shear strain at failure in passive extension, 3/2 of the "
-                 "axial strain. Units: none.",
-              0.06,
-              1e-5,
-              1.},
-             {"Unloading shear modulus ratio",
-              "The shear modulus G_ur of unloading and reloading over the active "
-                 "strength. Units: none.",
-              500.,
-              1.,
-              1e5},
-             Entries::poisson_ratio,
-             Entries::tension_cutoff};
-        static constexpr int  friction_entry = -1, n_state = 2;
-        static constexpr bool uses_void_ratio = false, stiffness_varies = false;
+        static constexpr const char *name    = "NGI-ADP";
+        static constexpr int         n_state = 2;
 
-        struct Parameters
+        struct Parameters : Elasticity
         {
-          MohrCoulombElasticity       elastic;
-          MohrCoulombStrength<double> cutoff; // its tension cut-off alone
+          double active, direct_ratio, passive_ratio; // entries: s_A in Pa
+          double active_failure, direct_failure, passive_failure; // entries
+          double modulus_ratio, tension_cutoff;                   // entries
+
+          MohrCoulombStrength<double> cutoff; // the tension cut-off alone
           double                      center; // (s_A - s_P) / 2
           double                      radius; // (s_A + s_P) / 2
-          double                      active; // s_A
           double                      shear_scale, inverse_scale; // n, 1 / n
           // strains at failure: A - s_A / G, n (D - s_D / G), P - s_P / G
           double active_strain, direct_strain, passive_strain;
+
+          void
+          derive()
+          {
+            const double A = active, D = A * direct_ratio,
+                         P = A * passive_ratio, G = A * modulus_ratio,
+                         n = .5 * (A + P) / D;
+            youngs_modulus = 2. * G * (1. + poisson_ratio);
+            Elasticity::derive();
+            constexpr double no_cone = MohrCoulombStrength<double>::no_cutoff;
+            cutoff                   = MohrCoulombStrength<double>::make(
+              *this, 0., 1., 0., no_cone, tension_cutoff);
+            center         = .5 * (A - P);
+            radius         = .5 * (A + P);
+            shear_scale    = n;
+            inverse_scale  = 1. / n;
+            active_strain  = active_failure - A / G;
+            direct_strain  = n * (direct_failure - D / G);
+            passive_strain = passive_failure - P / G;
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<NgiAdp> value{values};
-          const double            A = value("Active strength"),
-                       D            = A * value("Direct shear strength ratio"),
-                       P            = A * value("Passive strength ratio"),
-                       G = A * value("Unloading shear modulus ratio"),
-                       n = .5 * (A + P) / D;
-          Parameters p;
-          p.elastic =
-            MohrCoulombElasticity::make(2. * G * (1. + value("Poisson ratio")),
-                                        value("Poisson ratio"));
-          constexpr double no_cone = MohrCoulombStrength<double>::no_cutoff;
-          p.cutoff                 = MohrCoulombStrength<double>::make(
-            p.elastic, 0., 1., 0., no_cone, value("Tension cut-off"));
-          p.center         = .5 * (A - P);
-          p.radius         = .5 * (A + P);
-          p.active         = A;
-          p.shear_scale    = n;
-          p.inverse_scale  = 1. / n;
-          p.active_strain  = value("Active failure strain") - A / G;
-          p.direct_strain  = n * (value("Direct shear failure strain") - D / G);
-          p.passive_strain = value("Passive failure strain") - P / G;
-          return p;
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::active,
+           {"Active strength",
+            "Pa",
+            "The undrained shear strength s_uA of clay in active compression along the vertical.",
+            10e3,
+            1e-3,
+            no_limit}},
+          {&Parameters::direct_ratio,
+           {"Direct shear strength ratio",
+            "",
+            "The undrained shear strength of direct simple shear over the active one, s_uDSS / s_uA.",
+            0.7,
+            0.05,
+            2.}},
+          {&Parameters::passive_ratio,
+           {"Passive strength ratio",
+            "",
+            "The undrained shear strength of passive extension over the active one, s_uP / s_uA.",
+            0.5,
+            0.05,
+            1.}},
+          {&Parameters::active_failure,
+           {"Active failure strain",
+            "",
+            "The shear strain at failure in active compression, 3/2 of the axial strain.",
+            0.02,
+            1e-5,
+            1.}},
+          {&Parameters::direct_failure,
+           {"Direct shear failure strain",
+            "",
+            "The shear strain at failure in direct simple shear.",
+            0.04,
+            1e-5,
+            1.}},
+          {&Parameters::passive_failure,
+           {"Passive failure strain",
+            "",
+            "The shear strain at failure in passive extension, 3/2 of the axial strain.",
+            0.06,
+            1e-5,
+            1.}},
+          {&Parameters::modulus_ratio,
+           {"Unloading shear modulus ratio",
+            "",
+            "The shear modulus G_ur of unloading and reloading over the active strength.",
+            500.,
+            1.,
+            1e5}},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::tension_cutoff, Entries::tension_cutoff}};
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<NgiAdp> value{values};
-          const double            k = context.earth_pressure_at_rest,
+          const double k = context.earth_pressure_at_rest,
                        tau_0 =
                          1.5 * context.mean_stress * (1. - k) / (1. + 2. * k),
-                       A = value("Active strength"),
-                       P = A * value("Passive strength ratio");
+                       A = p.active, P = A * p.passive_ratio;
           if (tau_0 >= A || tau_0 <= -P)
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "K0 = %g gives a shear stress of %g Pa at the start, beyond the "
-                "active strength %g Pa or the passive one, %g Pa. Set K0 closer "
-                "to 1, or raise Active strength.",
-                k,
-                tau_0,
-                A,
-                P);
-              return false;
-            }
-          return check_strains(values, tau_0, message);
+            return message.refuse(
+              "K0 = %g gives a shear stress of %g Pa at the start, beyond the "
+              "active strength %g Pa or the passive one, %g Pa. Set K0 closer "
+              "to 1, or raise Active strength.",
+              k,
+              tau_0,
+              A,
+              P);
+          return check_strains(p, tau_0, message);
         }
 
-        /** Its plastic strain changes no volume. */
-        static bool
-        dilates(const Parameters & /*p*/)
+        static VolumeInShear
+        volume_in_shear(const Parameters &)
         {
-          return false;
+          return VolumeInShear::kept;
         }
 
         static bool
@@ -189,21 +184,11 @@ namespace CaissonMPM
           return 1.;
         }
 
-        template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        p_wave_modulus(const StressState<Number> & /*stress*/,
-                       const Number /*void_ratio*/,
-                       const Parameters &p)
-        {
-          return p.elastic.p_wave_modulus();
-        }
-
         /** x; it is -1 until the first step finds tau_0. */
         static void
         start(const Parameters &, double *variable)
         {
           variable[0] = -1.;
-          variable[1] = 0.;
         }
 
         template <typename Number>
@@ -215,7 +200,7 @@ namespace CaissonMPM
         {
           if (any(state.variable[0] < Number(0.)))
             begin(sigma, state, p);
-          add_elastic_increment(sigma, de, p.elastic.lambda, p.elastic.mu);
+          add_elastic_increment(sigma, de, p.lambda, p.mu);
           const Shear<Number>    trial(sigma, p);
           Number                &x     = state.variable[0];
           const Number           tau_0 = state.variable[1];
@@ -226,7 +211,7 @@ namespace CaissonMPM
               x                        = hardened(trial, off, x, tau_0, p);
               const Shear<Number> back = returned(trial, x, tau_0, p);
               state.plastic_deviatoric +=
-                Number(.5 / p.elastic.mu) * distance(trial, back, p);
+                Number(.5 / p.mu) * distance(trial, back, p);
               sigma = back.stress(pressure(sigma), p);
             }
           cut_off(sigma, state, p);
@@ -342,7 +327,7 @@ namespace CaissonMPM
                        const Number            tau_0,
                        const Parameters       &p)
         {
-          const Number inverse_G(1. / p.elastic.mu), D(p.direct_strain),
+          const Number inverse_G(1. / p.mu), D(p.direct_strain),
             a = (s.h + Number(1. / 3.) * s.u) / max(s.tresca(), Number(1e-30)),
             share  = min(a * a, Number(1.)),
             far    = select(a > Number(0.),
@@ -361,7 +346,7 @@ namespace CaissonMPM
                  const Number            tau_0,
                  const Parameters       &p)
         {
-          const Number H = Number(p.elastic.mu) * failure_strain(off, tau_0, p),
+          const Number H   = Number(p.mu) * failure_strain(off, tau_0, p),
                        way = Number(p.center) - tau_0;
           const Number tolerance(1e-10 * p.radius);
           Number       x = x_old;
@@ -446,43 +431,40 @@ namespace CaissonMPM
             torn,
             frame.with_principal_stresses(
               MohrCoulombReturn<Number, MohrCoulombStrength<double>>::to_cutoff(
-                s, p.elastic, p.cutoff)),
+                s, p, p.cutoff)),
             sigma);
           state.plastic_volumetric +=
-            Number(1. / p.elastic.bulk) * (pressure(sigma) - before);
+            Number(1. / p.bulk) * (pressure(sigma) - before);
         }
 
         /** Whether each strain at failure is more than its elastic part. */
         static bool
-        check_strains(const double *values,
-                      const double  tau_0,
-                      LawMessage   &message)
+        check_strains(const Parameters &p,
+                      const double      tau_0,
+                      LawMessage       &message)
         {
-          const LawValues<NgiAdp> value{values};
-          const double            A = value("Active strength"),
-                       G = A * value("Unloading shear modulus ratio");
+          const double A = p.active, G = A * p.modulus_ratio;
           const struct
           {
-            const char *failure;
-            double      elastic;
-          } strains[] = {{"Active failure strain", (A - tau_0) / G},
+            const char *entry;
+            double      at_failure, elastic;
+          } strains[] = {{"Active failure strain",
+                          p.active_failure,
+                          (A - tau_0) / G},
                          {"Direct shear failure strain",
-                          A * value("Direct shear strength ratio") / G},
+                          p.direct_failure,
+                          A * p.direct_ratio / G},
                          {"Passive failure strain",
-                          (A * value("Passive strength ratio") + tau_0) / G}};
+                          p.passive_failure,
+                          (A * p.passive_ratio + tau_0) / G}};
           for (const auto &strain : strains)
-            if (value(strain.failure) <= strain.elastic)
-              {
-                __builtin_snprintf(
-                  message.text,
-                  sizeof(message.text),
-                  "%s = %g is not more than the elastic strain at failure, %g. "
-                  "Raise it, or Unloading shear modulus ratio.",
-                  strain.failure,
-                  value(strain.failure),
-                  strain.elastic);
-                return false;
-              }
+            if (strain.at_failure <= strain.elastic)
+              return message.refuse(
+                "%s = %g is not more than the elastic strain at failure, %g. "
+                "Raise it, or Unloading shear modulus ratio.",
+                strain.entry,
+                strain.at_failure,
+                strain.elastic);
           return true;
         }
 

@@ -57,144 +57,118 @@ namespace CaissonMPM
     inline namespace CAISSON_KERNEL_ISA
     {
       /** The law "NorSand". See the head of the file. */
-      struct NorSand
+      struct NorSand : MaterialLaw
       {
-        static constexpr const char *name      = "NorSand";
-        static constexpr LawEntry    entries[] = {
-             Entries::youngs_modulus,
-             Entries::poisson_ratio,
-             Entries::critical_friction_angle,
-             {"Critical void ratio at 1 kPa",
-              "The void ratio Gamma of the critical state at a mean effective "
-                 "stress of 1 kPa. Units: none.",
-              0.816,
-              0.1,
-              19.},
-             {"Slope of the critical state",
-              "The slope lambda of the critical state line, -de / d(ln p); that "
-                 "of decades over 2.3. Units: none.",
-              0.0135,
-              1e-4,
-              1.},
-             {"Volumetric coupling",
-              "The parameter N by which the stress ratio of zero dilatancy falls "
-                 "off the critical state. Units: none.",
-              0.3,
-              0.,
-              0.9},
-             {"State dilatancy",
-              "The parameter chi, the largest dilatancy in triaxial compression "
-                 "over the state parameter there. Units: none.",
-              3.5,
-              0.,
-              10.},
-             {"Plastic hardening",
-              "The modulus H of plastic hardening. Units: none.",
-              100.,
-              1.,
-              1e4},
-             Entries::yield_stress_ratio,
-             Entries::reference_stress,
-             Entries::stiffness_exponent,
-             Entries::smallest_stress_of_stiffness};
-        static constexpr int  friction_entry = 2, n_state = 1;
-        static constexpr bool uses_void_ratio = true, stiffness_varies = true;
+        static constexpr const char *name     = "NorSand";
+        static constexpr int         n_state  = 1;
+        static constexpr bool uses_void_ratio = true, stiffness_varies = true,
+                              has_yield_stress = true;
 
-        struct Parameters
+        /** The elasticity is that at the reference stress. */
+        struct Parameters : Elasticity, StiffnessByStress
         {
-          MohrCoulombElasticity elastic; // at the reference stress
-          StiffnessByStress     stiffness;
-          CriticalStateSlope    slope;
-          double                Gamma, lambda; // e_c at 1 Pa
-          double                coupling;      // N
-          double                dilatancy;     // chi_i / M_c
-          double                hardening;     // H / M_c
-          double                most_dilatant; // the largest y
-          double                at_start;      // the yield stress ratio
-          double                sine;          // of phi_c
+          double friction_angle, critical_void_ratio; // entries
+          double slope_of_line;                       // an entry: lambda
+          double coupling, chi, H;                    // entries
+          double at_start; // an entry: the yield stress ratio
+
+          CriticalStateSlope slope;
+          double             Gamma;         // e_c at 1 Pa
+          double             dilatancy;     // chi_i / M_c
+          double             hardening;     // H / M_c
+          double             most_dilatant; // the largest y
+
+          void
+          derive()
+          {
+            Elasticity::derive();
+            StiffnessByStress::derive();
+            slope          = CriticalStateSlope::make(friction_angle);
+            const double M = slope.M;
+            Gamma          = critical_void_ratio + slope_of_line * log_of_1_kPa;
+            dilatancy      = chi / (M - chi * slope_of_line);
+            hardening      = H / M;
+            // in extension a principal stress vanishes at eta = 3 / 2
+            const double limit =
+              (.95 * .5 * (3. + M) / M - 1.) / (1. - coupling);
+            most_dilatant = limit < 1. ? limit : 1.;
+          }
         };
 
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<NorSand> value{values};
-          Parameters               p;
-          p.elastic = MohrCoulombElasticity::make(value("Youngs modulus"),
-                                                  value("Poisson ratio"));
-          p.stiffness =
-            StiffnessByStress::make(value("Reference stress"),
-                                    value("Stiffness exponent"),
-                                    value("Smallest stress of stiffness"));
-          p.sine         = __builtin_sin(value("Critical friction angle") *
-                                 radians_per_degree);
-          p.slope        = CriticalStateSlope::make(p.sine);
-          const double M = p.slope.M;
-          p.lambda       = value("Slope of the critical state");
-          p.Gamma =
-            value("Critical void ratio at 1 kPa") + p.lambda * log_of_1_kPa;
-          p.coupling  = value("Volumetric coupling");
-          p.dilatancy = value("State dilatancy") /
-                        (M - value("State dilatancy") * p.lambda);
-          p.hardening = value("Plastic hardening") / M;
-          // in extension a principal stress vanishes at eta = 3 / 2
-          const double limit =
-            (.95 * .5 * (3. + M) / M - 1.) / (1. - p.coupling);
-          p.most_dilatant = limit < 1. ? limit : 1.;
-          p.at_start      = value("Yield stress ratio");
-          return p;
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::critical_friction_angle},
+          {&Parameters::critical_void_ratio,
+           {"Critical void ratio at 1 kPa",
+            "",
+            "The void ratio Gamma of the critical state at a mean effective stress of 1 kPa.",
+            0.816,
+            0.1,
+            19.}},
+          {&Parameters::slope_of_line,
+           {"Slope of the critical state",
+            "",
+            "The slope lambda of the critical state line, -de / d(ln p); that of decades over 2.3.",
+            0.0135,
+            1e-4,
+            1.}},
+          {&Parameters::coupling,
+           {"Volumetric coupling",
+            "",
+            "The parameter N by which the stress ratio of zero dilatancy falls off the critical state.",
+            0.3,
+            0.,
+            0.9}},
+          {&Parameters::chi,
+           {"State dilatancy",
+            "",
+            "The parameter chi, the largest dilatancy in triaxial compression over the state parameter there.",
+            3.5,
+            0.,
+            10.}},
+          {&Parameters::H,
+           {"Plastic hardening",
+            "",
+            "The modulus H of plastic hardening.",
+            100.,
+            1.,
+            1e4}},
+          {&Parameters::at_start, Entries::yield_stress_ratio},
+          {&Parameters::reference_stress, Entries::reference_stress},
+          {&Parameters::stiffness_exponent, Entries::stiffness_exponent},
+          {&Parameters::smallest_stress_of_stiffness,
+           Entries::smallest_stress_of_stiffness}};
 
         static bool
-        check(const double     *values,
+        check(const Parameters &p,
               const LawContext &context,
               LawMessage       &message)
         {
-          const LawValues<NorSand> value{values};
-          const Parameters         p = make(values);
-          const double             M = p.slope.M;
-          if (value("State dilatancy") * p.lambda > .5 * M)
-            {
-              __builtin_snprintf(
-                message.text,
-                sizeof(message.text),
-                "State dilatancy = %g times Slope of the critical state = %g "
-                "exceeds %g, half of M. Reduce one of them.",
-                value("State dilatancy"),
-                p.lambda,
-                .5 * M);
-              return false;
-            }
+          const double M = p.slope.M;
+          if (p.chi * p.slope_of_line > .5 * M)
+            return message.refuse(
+              "State dilatancy = %g times Slope of the critical state = %g "
+              "exceeds %g, half of M. Reduce one of them.",
+              p.chi,
+              p.slope_of_line,
+              .5 * M);
           if (context.void_ratio <= 0.)
-            {
-              __builtin_snprintf(message.text,
-                                 sizeof(message.text),
-                                 "Void ratio is 0 at the start. Set it.");
-              return false;
-            }
+            return message.refuse("Void ratio is 0 at the start. Set it.");
           return context.mean_stress <= 0. || check_state(p, context, message);
         }
 
-        /** Whether the soil gains volume in plastic shear: where it is dense.
-         */
-        static bool
-        dilates(const Parameters & /*p*/)
+        /** Where it is dense. */
+        static VolumeInShear
+        volume_in_shear(const Parameters &)
         {
-          return true;
+          return VolumeInShear::gained;
         }
 
         static const char *
-        warning(const double *values)
+        warning(const Parameters &p)
         {
-          const LawValues<NorSand> value{values};
-          return warning_of_stiffness(value("Reference stress"),
-                                      value("Smallest stress of stiffness"));
-        }
-
-        /** 1 - sin(phi_c) (Jaky 1948). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.sine;
+          return p.StiffnessByStress::warning();
         }
 
         template <typename Number>
@@ -203,17 +177,10 @@ namespace CaissonMPM
                        const Number /*void_ratio*/,
                        const Parameters &p)
         {
-          return Number(p.elastic.p_wave_modulus()) * p.stiffness(stress);
+          return Number(p.p_wave_modulus()) * p.stiffening(stress);
         }
 
-        /** p_i is 0 until the first step. */
-        static void
-        start(const Parameters &, double *variable)
-        {
-          variable[0] = 0.;
-        }
-
-        /** p_i, also before the first step. */
+        /** p_i, also before the first step, until which it is 0. */
         template <typename Number>
         [[gnu::always_inline]] static inline Number
         yield_stress(const StressState<Number> &sigma,
@@ -241,14 +208,14 @@ namespace CaissonMPM
           using Invariants    = CriticalStateInvariants<Number>;
           const Number e      = state.void_ratio;
           const Number image  = yield_stress(sigma, e, state.variable[0], p);
-          const Number factor = p.stiffness(sigma);
+          const Number factor = p.stiffening(sigma);
           add_elastic_increment(sigma,
                                 StrainIncrement<Number>{factor * de.rr,
                                                         factor * de.zz,
                                                         factor * de.tt,
                                                         factor * de.rz},
-                                p.elastic.lambda,
-                                p.elastic.mu);
+                                p.lambda,
+                                p.mu);
           const Invariants    trial(sigma, p.slope);
           const State<Number> now(image, e, p);
           Return<Number>      back{max(trial.p, Number(least_stress)),
@@ -262,9 +229,7 @@ namespace CaissonMPM
           state.variable[0] = select(torn, Number(least_image(p)), back.image);
           state.plastic_volumetric -=
             back.compression +
-            select(torn,
-                   trial.p / (factor * Number(p.elastic.bulk)),
-                   Number(0.));
+            select(torn, trial.p / (factor * Number(p.bulk)), Number(0.));
           state.plastic_deviatoric += back.shear;
         }
 
@@ -283,8 +248,8 @@ namespace CaissonMPM
           {
             const Number state =
               void_ratio - Number(p.Gamma) +
-              Number(p.lambda) *
-                log(max(image, Number(p.stiffness.smallest_stress)));
+              Number(p.slope_of_line) *
+                log(max(image, Number(p.smallest_stress_of_stiffness)));
             const Number y =
               min(max(Number(-p.dilatancy) * state, Number(least_dilatant)),
                   Number(p.most_dilatant));
@@ -323,8 +288,8 @@ namespace CaissonMPM
                      const Number         factor,    // of the stiffness
                      const Parameters    &parameters)
           {
-            const Number K       = Number(parameters.elastic.bulk) * factor,
-                         three_G = Number(3. * parameters.elastic.mu) * factor,
+            const Number K       = Number(parameters.bulk) * factor,
+                         three_G = Number(3. * parameters.mu) * factor,
                          least   = least_image(parameters);
             Number ratio(0.), hardening(0.); // r, H / (M_c (1 - N |y|))
             for (int i = 0; i < most_iterations; ++i)
@@ -380,22 +345,16 @@ namespace CaissonMPM
                     const LawContext &context,
                     LawMessage       &message)
         {
-          const double psi = context.void_ratio - p.Gamma +
-                             p.lambda * __builtin_log(context.mean_stress),
+          const double psi =
+                         context.void_ratio - p.Gamma +
+                         p.slope_of_line * __builtin_log(context.mean_stress),
                        // of p_i = r p in triaxial compression
-            slope            = p.dilatancy / (1. + p.dilatancy * p.lambda),
-                       y     = -slope * psi,
-                       share = CriticalStateSlope::share_at_rest(
-                         p.sine, context.earth_pressure_at_rest);
-          const bool   beyond = y < least_dilatant || y > p.most_dilatant;
-          const double larger = y > 0. ? y : -y,
-                       peak   = 1. - p.coupling * larger + y;
-          if (!beyond && share < peak)
-            return true;
-          if (beyond)
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
+            slope        = p.dilatancy / (1. + p.dilatancy * p.slope_of_line),
+                       y = -slope * psi,
+                       share =
+                         p.slope.share_at_rest(context.earth_pressure_at_rest);
+          if (y < least_dilatant || y > p.most_dilatant)
+            return message.refuse(
               "Void ratio = %g makes a state parameter of %g at a mean stress of "
               "%g Pa, and the law holds from %g to %g. Correct it, or Critical "
               "void ratio at 1 kPa.",
@@ -404,22 +363,20 @@ namespace CaissonMPM
               context.mean_stress,
               -p.most_dilatant / slope,
               -least_dilatant / slope);
-          else
-            __builtin_snprintf(
-              message.text,
-              sizeof(message.text),
-              "K0 = %g is beyond the peak strength, at a state parameter of %g. "
-              "Correct it, Void ratio or Critical friction angle.",
-              context.earth_pressure_at_rest,
-              psi);
-          return false;
+          const double peak = 1. - p.coupling * (y > 0. ? y : -y) + y;
+          return share < peak ||
+                 message.refuse(
+                   "K0 = %g is beyond the peak strength, at a state parameter of "
+                   "%g. Correct it, Void ratio or Critical friction angle.",
+                   context.earth_pressure_at_rest,
+                   psi);
         }
 
         /** The smallest p_i. Units: Pa. */
         [[gnu::always_inline]] static inline double
         least_image(const Parameters &p)
         {
-          return .05 * p.stiffness.smallest_stress;
+          return .05 * p.smallest_stress_of_stiffness;
         }
 
         static constexpr int    most_iterations = 12;

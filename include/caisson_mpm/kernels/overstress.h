@@ -28,21 +28,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Law::has_yield_surface; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      has_yield_surface(int) -> decltype(Law::has_yield_surface)
-      {
-        return Law::has_yield_surface;
-      }
-
-      template <typename Law>
-      constexpr bool
-      has_yield_surface(long)
-      {
-        return false;
-      }
-
       /** The radius of the largest of Mohr's circles. */
       template <typename Number>
       [[gnu::always_inline]] inline Number
@@ -69,12 +54,12 @@ namespace CaissonMPM
                              const double                    n_steps)
       {
         StressState<Number> trial = sigma;
-        add_elastic_increment(trial, de, p.elastic.lambda, p.elastic.mu);
+        add_elastic_increment(trial, de, p.lambda, p.mu);
         const Number deviatoric = state.plastic_deviatoric,
                      volumetric = state.plastic_volumetric;
         Law::update(sigma, de, state, p);
 
-        const Number time = Number(n_steps / p.elastic.mu) *
+        const Number time = Number(n_steps / p.mu) *
                             largest_radius(sigma), // over the step
           share = time / (time + Number(1.));
         sigma.rr += share * (trial.rr - sigma.rr);

@@ -19,21 +19,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** Law::is_packed; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      is_packed(int) -> decltype(Law::is_packed)
-      {
-        return Law::is_packed;
-      }
-
-      template <typename Law>
-      constexpr bool
-      is_packed(long)
-      {
-        return false;
-      }
-
       /** What a law takes and gives. */
       template <typename Number>
       struct LawPoints
@@ -149,7 +134,7 @@ namespace CaissonMPM
             return;
           with_law(*material, [&](auto law, const auto &p) CAISSON_LAMBDA {
             using Law = decltype(law);
-            if constexpr (is_packed<Law>(0))
+            if constexpr (Law::is_packed)
               {
                 fill_last_register<Law>();
                 for (int i = 0; i < n_points; i += 2 * width)

@@ -22,46 +22,43 @@ namespace CaissonMPM
       /** See the head of the file. */
       struct StiffnessByStress
       {
-        double exponent;
-        double inverse_stress, smallest_stress; // 1/Pa, Pa
-        bool   by_roots;                        // 4 m is a whole number
+        double reference_stress, stiffness_exponent; // entries
+        double smallest_stress_of_stiffness;         // an entry, Pa
+        double inverse_stress;                       // 1/Pa
+        bool   by_roots;                             // 4 m is a whole number
 
-        /** @p reference: p_ref, @p smallest: p_min. Units: Pa. */
-        static StiffnessByStress
-        make(const double reference,
-             const double exponent,
-             const double smallest)
+        void
+        derive()
         {
-          return {exponent,
-                  1. / reference,
-                  smallest,
-                  has_quarter_power(exponent)};
+          inverse_stress = 1. / reference_stress;
+          by_roots       = has_quarter_power(stiffness_exponent);
         }
 
         /** E / E_ref. */
         template <typename Number>
         [[gnu::always_inline]] inline Number
-        operator()(const StressState<Number> &s) const
+        stiffening(const StressState<Number> &s) const
         {
           const Number ratio =
-            Number(inverse_stress) * max(pressure(s), Number(smallest_stress));
-          return by_roots ? quarter_power(ratio, exponent) :
-                            pow(ratio, exponent);
+            Number(inverse_stress) *
+            max(pressure(s), Number(smallest_stress_of_stiffness));
+          return by_roots ? quarter_power(ratio, stiffness_exponent) :
+                            pow(ratio, stiffness_exponent);
+        }
+
+        /** What is known against the stresses p_ref and p_min, or null. */
+        const char *
+        warning() const
+        {
+          if (reference_stress < 1e4 || reference_stress > 1e6)
+            return "Reference stress is usually 1e5 Pa: check its unit, and "
+                   "that Youngs modulus is that of this stress";
+          if (smallest_stress_of_stiffness >= reference_stress)
+            return "Smallest stress of stiffness is not below Reference "
+                   "stress, so that the stiffness hardly depends on the stress";
+          return nullptr;
         }
       };
-
-      /** What is known against the stresses p_ref and p_min, or null. */
-      inline const char *
-      warning_of_stiffness(const double reference, const double smallest)
-      {
-        if (reference < 1e4 || reference > 1e6)
-          return "Reference stress is usually 1e5 Pa: check its unit, and that "
-                 "Youngs modulus is that of this stress";
-        if (smallest >= reference)
-          return "Smallest stress of stiffness is not below Reference stress, "
-                 "so that the stiffness hardly depends on the stress";
-        return nullptr;
-      }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

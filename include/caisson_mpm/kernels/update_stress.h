@@ -321,28 +321,13 @@ namespace CaissonMPM
           state.variable[i].store(history.state[i] + lane);
       }
 
-      /** Law::state_is_a_tensor; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      state_is_a_tensor(int) -> decltype(Law::state_is_a_tensor)
-      {
-        return Law::state_is_a_tensor;
-      }
-
-      template <typename Law>
-      constexpr bool
-      state_is_a_tensor(long)
-      {
-        return false;
-      }
-
       /** Turn the state of a law by half of the turn of a step, if the state is
        * a tensor. */
       template <typename Law, typename Number>
       [[gnu::always_inline]] inline void
       turn_state(const HalfTurn<Number> &half_turn, LawState<Number> &state)
       {
-        if constexpr (state_is_a_tensor<Law>(0))
+        if constexpr (Law::state_is_a_tensor)
           {
             Number *const             v = state.variable;
             const StressState<Number> turned =
@@ -439,7 +424,7 @@ namespace CaissonMPM
                                   share * strain.tt,
                                   share * strain.rz};
           }
-        if constexpr (has_yield_surface<Law>(0))
+        if constexpr (Law::has_yield_surface)
           {
             if (material.overstress_steps > 0.)
               update_with_overstress<Law>(stress,
@@ -494,7 +479,8 @@ namespace CaissonMPM
                           lane,
                           Number::load(b.volume + lane),
                           initial_void_ratio,
-                          needs_void_ratio<Law>(parameters, 0));
+                          Law::uses_void_ratio &&
+                            Law::needs_void_ratio(parameters));
         turn_state<Law>(s.half_turn, state);
         return state;
       }

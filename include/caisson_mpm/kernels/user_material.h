@@ -20,46 +20,27 @@ namespace CaissonMPM
     {
       /** The law "user material". See the head of the file; it has no update()
        * for lanes: user_points.h. */
-      struct UserMaterial
+      struct UserMaterial : MaterialLaw
       {
-        static constexpr const char *name           = "user material";
-        static constexpr LawEntry    entries[]      = {Entries::friction_angle};
-        static constexpr int         friction_entry = 0, n_state = 0;
-        static constexpr bool        uses_void_ratio  = false;
-        static constexpr bool        stiffness_varies = true;
-        static constexpr bool        is_external      = true;
+        static constexpr const char *name      = "user material";
+        static constexpr bool stiffness_varies = true, is_external = true;
 
         struct Parameters
         {
-          double  sine;    // of the friction angle
-          double  modulus; // lambda + 2 mu at the start, Pa
-          UserLaw update;
-          void   *law;
+          double friction_angle;
+
+          // known when the library has been loaded
+          double  modulus = 0.; // lambda + 2 mu at the start, Pa
+          UserLaw update  = nullptr;
+          void   *law     = nullptr;
+
+          void
+          derive()
+          {}
         };
 
-        /** The rest is known when the library has been loaded. */
-        static Parameters
-        make(const double *values)
-        {
-          const LawValues<UserMaterial> value{values};
-          return {__builtin_sin(value("Friction angle") * radians_per_degree),
-                  0.,
-                  nullptr,
-                  nullptr};
-        }
-
-        static bool
-        check(const double * /*values*/, const LawContext &, LawMessage &)
-        {
-          return true;
-        }
-
-        /** 1 - sin(phi) (Jaky 1948). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return 1. - p.sine;
-        }
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::friction_angle, Entries::friction_angle}};
 
         /** That of the start: UserState has those of the points. */
         template <typename Number>
@@ -77,21 +58,6 @@ namespace CaissonMPM
       {
         using type = UserMaterial;
       };
-
-      /** Law::is_external; chosen for the argument 0. */
-      template <typename Law>
-      constexpr auto
-      is_external(int) -> decltype(Law::is_external)
-      {
-        return Law::is_external;
-      }
-
-      template <typename Law>
-      constexpr bool
-      is_external(long)
-      {
-        return false;
-      }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

@@ -30,7 +30,7 @@ namespace
 {
   using namespace CaissonMPM::Kernels;
 
-  constexpr double friction_angle = 30. * radians_per_degree, density = 1900.,
+  constexpr double friction_angle = 30., density = 1900.,
                    gravity = 9.81, cell_size = .1, K0 = .5;
 
   /** A column of soil 50 cells wide with its blocks, as MaterialPoints lays
@@ -65,11 +65,10 @@ namespace
       changed.assign(active.size(), 1);
       n_yielding.assign(active.size(), 0);
       material.body_force[1] = -gravity;
-      set_law<MohrCoulomb>(
-        material,
-        MohrCoulomb::Parameters::make(5e6, .3, friction_angle, 0., 0., 0.));
-      material.p_wave_modulus =
-        MohrCoulombElasticity::make(5e6, .3).p_wave_modulus();
+      const double values[]  = {5e6, .3, friction_angle, 0., 0., 0., no_limit};
+      const auto   soil      = read_parameters<MohrCoulomb>(values);
+      set_law<MohrCoulomb>(material, soil);
+      material.p_wave_modulus = soil.p_wave_modulus();
     }
 
     void
