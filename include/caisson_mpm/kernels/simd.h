@@ -3,8 +3,8 @@
 // A thin wrapper around the vector extensions of GCC and clang: the number
 // types on which every kernel is templated.
 //
-// Lanes<n> holds n doubles (n = 2, 4, 8); Lanes<1> is a plain double with the
-// same interface, for tests and for work on one material point. A kernel is
+// Lanes<n> holds n doubles (n = 1, 2, 4, 8); Lanes<1> is for tests and for work
+// on one material point. A kernel is
 // compiled once per instruction set. To keep these objects apart (the same
 // template, compiled with other flags, must not be merged by the linker), all
 // kernel code lives in a namespace named by CAISSON_KERNEL_ISA.
@@ -314,177 +314,15 @@ namespace CaissonMPM
         Values values;
       };
 
-      /** One double with the interface of Lanes<n>. */
-      template <>
-      class Lanes<1>
-      {
-      public:
-        static constexpr int width = 1;
-
-        struct Mask
-        {
-          bool set;
-
-          [[gnu::always_inline]] friend inline Mask
-          operator&(const Mask a, const Mask b)
-          {
-            return {a.set && b.set};
-          }
-          [[gnu::always_inline]] friend inline Mask
-          operator|(const Mask a, const Mask b)
-          {
-            return {a.set || b.set};
-          }
-          [[gnu::always_inline]] friend inline Mask
-          operator!(const Mask a)
-          {
-            return {!a.set};
-          }
-          [[gnu::always_inline]] friend inline bool
-          any(const Mask a)
-          {
-            return a.set;
-          }
-          [[gnu::always_inline]] friend inline unsigned int
-          to_integer(const Mask a)
-          {
-            return a.set ? 1u : 0u;
-          }
-        };
-
-        Lanes() = default;
-        [[gnu::always_inline]] inline Lanes(const double x)
-          : value(x)
-        {}
-
-        [[gnu::always_inline]] static inline Lanes
-        load(const double *p)
-        {
-          return Lanes(*p);
-        }
-        [[gnu::always_inline]] inline void
-        store(double *p) const
-        {
-          *p = value;
-        }
-        [[gnu::always_inline]] inline double
-        operator[](const int) const
-        {
-          return value;
-        }
-
-        [[gnu::always_inline]] friend inline Lanes
-        operator+(const Lanes a, const Lanes b)
-        {
-          return Lanes(a.value + b.value);
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        operator-(const Lanes a, const Lanes b)
-        {
-          return Lanes(a.value - b.value);
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        operator*(const Lanes a, const Lanes b)
-        {
-          return Lanes(a.value * b.value);
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        operator/(const Lanes a, const Lanes b)
-        {
-          return Lanes(a.value / b.value);
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        operator-(const Lanes a)
-        {
-          return Lanes(-a.value);
-        }
-        [[gnu::always_inline]] inline Lanes &
-        operator+=(const Lanes b)
-        {
-          value += b.value;
-          return *this;
-        }
-        [[gnu::always_inline]] inline Lanes &
-        operator-=(const Lanes b)
-        {
-          value -= b.value;
-          return *this;
-        }
-        [[gnu::always_inline]] inline Lanes &
-        operator*=(const Lanes b)
-        {
-          value *= b.value;
-          return *this;
-        }
-        [[gnu::always_inline]] friend inline Mask
-        operator<(const Lanes a, const Lanes b)
-        {
-          return {a.value < b.value};
-        }
-        [[gnu::always_inline]] friend inline Mask
-        operator>(const Lanes a, const Lanes b)
-        {
-          return {a.value > b.value};
-        }
-        [[gnu::always_inline]] friend inline Mask
-        operator<=(const Lanes a, const Lanes b)
-        {
-          return {a.value <= b.value};
-        }
-        [[gnu::always_inline]] friend inline Mask
-        operator>=(const Lanes a, const Lanes b)
-        {
-          return {a.value >= b.value};
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        select(const Mask m, const Lanes a, const Lanes b)
-        {
-          return m.set ? a : b;
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        max(const Lanes a, const Lanes b)
-        {
-          return a.value > b.value ? a : b;
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        min(const Lanes a, const Lanes b)
-        {
-          return a.value < b.value ? a : b;
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        abs(const Lanes a)
-        {
-          return Lanes(__builtin_fabs(a.value));
-        }
-        [[gnu::always_inline]] friend inline Lanes
-        sqrt(const Lanes a)
-        {
-          return Lanes(__builtin_sqrt(a.value));
-        }
-        [[gnu::always_inline]] friend inline double
-        sum(const Lanes a)
-        {
-          return a.value;
-        }
-
-      private:
-        double value;
-      };
-
       /** Lane i holds value(i). */
       template <typename Number, typename Value>
       [[gnu::always_inline]] inline Number
       make_lanes(const Value &value)
       {
-        if constexpr (Number::width == 1)
-          return Number(value(0));
-        else
-          {
-            typename Number::Values lanes = {};
-            for (int i = 0; i < Number::width; ++i)
-              lanes[i] = value(i);
-            return Number(lanes);
-          }
+        typename Number::Values lanes = {};
+        for (int i = 0; i < Number::width; ++i)
+          lanes[i] = value(i);
+        return Number(lanes);
       }
 
 #define CAISSON_SHUFFLE(a, b, ...) \
