@@ -17,6 +17,13 @@ namespace CaissonMPM
     {
       return Kernels::law_table.law[law];
     }
+
+    /** A stress as the laws take that of one point. */
+    Kernels::StressState<Kernels::Lanes<1>>
+    one_lane(const Stress &stress)
+    {
+      return {stress[0], stress[1], stress[2], stress[3]};
+    }
   } // namespace
 
   std::string
@@ -28,12 +35,15 @@ namespace CaissonMPM
   void
   SoilMaterial::check(const double mean_stress) const
   {
-    Kernels::LawMessage message;
-    if (!description(law).check(
-          law_values.data(),
-          {earth_pressure_at_rest, void_ratio(), mean_stress},
-          message))
-      throw BadInput(section() + "/" + message.text);
+    Kernels::Material material;
+    set_law(material);
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      Kernels::LawMessage message;
+      if (!l.check(p,
+                   {earth_pressure_at_rest, void_ratio(), mean_stress},
+                   message))
+        throw BadInput(section() + "/" + message.text);
+    });
     if (stress_measure == Kernels::StressMeasure::kirchhoff &&
         !law_value("Youngs modulus"))
       throw BadInput(section() + "/Stress measure = Kirchhoff: the law " +
@@ -144,7 +154,11 @@ namespace CaissonMPM
   {
     Kernels::Material material;
     set_law(material);
-    return description(law).earth_pressure_at_rest(material);
+    double result = 0.;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      result = l.earth_pressure_at_rest(p);
+    });
+    return result;
   }
 
   std::string
@@ -156,7 +170,12 @@ namespace CaissonMPM
       return "";
     if (umat && !umat->warning().empty())
       return section() + ": " + umat->warning();
-    const char *const limit = description(law).warning(law_values.data());
+    Kernels::Material material;
+    set_law(material);
+    const char *limit = nullptr;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      limit = l.warning(p);
+    });
     return limit == nullptr ? "" : section() + ": " + limit;
   }
 
@@ -210,8 +229,10 @@ namespace CaissonMPM
   {
     Kernels::Material material;
     set_law(material);
-    StateVariables result;
-    description(law).start(material, result.data());
+    StateVariables result = {};
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      l.start(p, result.data());
+    });
     return result;
   }
 
@@ -220,10 +241,12 @@ namespace CaissonMPM
                  const Stress            &stress,
                  const double             void_ratio)
   {
-    return material.water_modulus +
-           Kernels::law_table.law[material.law].p_wave_modulus(material,
-                                                               stress.data(),
-                                                               void_ratio);
+    double result = material.water_modulus;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      result +=
+        l.p_wave_modulus(one_lane(stress), Kernels::Lanes<1>(void_ratio), p)[0];
+    });
+    return result;
   }
 
   bool
@@ -238,10 +261,15 @@ namespace CaissonMPM
                   const double             void_ratio,
                   const StateVariables    &state)
   {
-    return Kernels::law_table.law[material.law].yield_stress(material,
-                                                             stress.data(),
-                                                             void_ratio,
-                                                             state.data());
+    double result = 0.;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      if constexpr (decltype(l)::has_yield_stress)
+        result = l.yield_stress(one_lane(stress),
+                                Kernels::Lanes<1>(void_ratio),
+                                Kernels::Lanes<1>(state[0]),
+                                p)[0];
+    });
+    return result;
   }
 
   double
@@ -249,7 +277,13 @@ namespace CaissonMPM
                      const Stress            &stress,
                      const double             void_ratio)
   {
-    return Kernels::law_table.law[material.law].void_ratio_of_soil(
-      material, stress.data(), void_ratio);
+    double result = void_ratio;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      if constexpr (decltype(l)::has_loosest_state)
+        if (material.has_loosest_state)
+          result =
+            std::min(result, l.loosest_void_ratio(one_lane(stress), p)[0]);
+    });
+    return result;
   }
 } // namespace CaissonMPM

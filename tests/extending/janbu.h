@@ -89,21 +89,9 @@ namespace CaissonMPM
                                           Number(p.unloading),
                                           Number(1.));
           const Number factor    = unloading * pow(1e-5 * now, p.exponent);
-          add_elastic_increment(sigma,
-                                StrainIncrement<Number>{factor * de.rr,
-                                                        factor * de.zz,
-                                                        factor * de.tt,
-                                                        factor * de.rz},
-                                p.lambda,
-                                p.mu);
+          add_elastic_increment(sigma, scaled(factor, de), p.lambda, p.mu);
           state.variable[0] = max(state.variable[0], now);
         }
-      };
-
-      template <>
-      struct LawSlot<7>
-      {
-        using type = Janbu;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

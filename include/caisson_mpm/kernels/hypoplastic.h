@@ -28,12 +28,6 @@ namespace CaissonMPM
                  "with intergranular strain";
         }
       };
-
-      template <>
-      struct LawSlot<3>
-      {
-        using type = HypoplasticSand;
-      };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

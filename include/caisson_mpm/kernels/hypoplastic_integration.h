@@ -60,16 +60,15 @@ namespace CaissonMPM
         template <typename Number>
         [[gnu::always_inline]] static inline void
         update(StressState<Number>           &sigma,
-               const StrainIncrement<Number> &de,
+               const StrainIncrement<Number> &D,
                LawState<Number>              &law_state,
                const Parameters              &p)
         {
           using Mask = typename Number::Mask;
-          const Number              one(1.), zero(0.);
-          const StressState<Number> D{de.rr, de.zz, de.tt, de.rz};
-          const Number              square = product(D, D);
-          const Number              length = sqrt(square);
-          const Number              trace  = D.rr + D.zz + D.tt;
+          const Number one(1.), zero(0.);
+          const Number square = product(D, D);
+          const Number length = sqrt(square);
+          const Number trace  = D.rr + D.zz + D.tt;
 
           State<Number> state = state_at_start(sigma, law_state, p);
 

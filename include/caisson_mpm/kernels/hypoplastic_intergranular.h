@@ -32,42 +32,49 @@ namespace CaissonMPM
           {{&Parameters::range,
             {"Elastic range of strain",
              "",
-             "The intergranular strain has the length R at most; sand is nearly elastic for strains that are small beside it.",
+             "The intergranular strain has the length R at most; sand is "
+             "nearly elastic for strains that are small beside it.",
              1e-4,
              1e-7,
              1e-2}},
            {&Parameters::reversed,
             {"Stiffness factor of reversals",
              "",
-             "The stiffness after a reversal of the strain, and of sand at rest, is m_R times that of the linear part of the law.",
+             "The stiffness after a reversal of the strain, and of sand at "
+             "rest, is m_R times that of the linear part of the law.",
              5.,
              1.,
              100.}},
            {&Parameters::turned,
             {"Stiffness factor of turns",
              "",
-             "The stiffness after a turn of the strain path by 90 degrees is m_T times that of the linear part of the law.",
+             "The stiffness after a turn of the strain path by 90 degrees is "
+             "m_T times that of the linear part of the law.",
              2.,
              1.,
              100.}},
            {&Parameters::evolution,
             {"Evolution exponent",
              "",
-             "The intergranular strain approaches its largest length with the exponent beta_r.",
+             "The intergranular strain approaches its largest length with the "
+             "exponent beta_r.",
              0.5,
              0.01,
              10.}},
            {&Parameters::decay,
             {"Stiffness decay exponent",
              "",
-             "The additional stiffness decays with the power chi of the intergranular strain.",
+             "The additional stiffness decays with the power chi of the "
+             "intergranular strain.",
              6.,
              0.1,
              100.}},
            {&Parameters::start,
             {"Intergranular strain at the start",
              "",
-             "At the start the intergranular strain is this share of R, in vertical compression: 0 for sand long at rest, 1 for sand just laid down.",
+             "At the start the intergranular strain is this share of R, in "
+             "vertical compression: 0 for sand long at rest, 1 for sand just "
+             "laid down.",
              0.,
              0.,
              1.}}});
@@ -91,12 +98,6 @@ namespace CaissonMPM
         {
           variable[1] = -p.start * p.range;
         }
-      };
-
-      template <>
-      struct LawSlot<5>
-      {
-        using type = HypoplasticIntergranular;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -2,7 +2,7 @@
 //
 // The material laws that the kernels know, the choice among them once per
 // block, and what the rest of the program asks of them. A new law is a header
-// as described in material_law.h and one more line among the next ones.
+// as described in material_law.h, included here, and one more name in Laws.
 #ifndef caisson_mpm_kernels_laws_h
 #define caisson_mpm_kernels_laws_h
 
@@ -27,45 +27,48 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      template <int slot>
-      struct SlotNumber
-      {
-        using Law = typename LawSlot<slot>::type;
-
-        static constexpr bool is_taken = !__is_same(Law, void);
-      };
-
-      template <int... slot>
-      struct SlotList
+      template <typename... Law>
+      struct LawList
       {};
 
-      using Slots =
-        SlotList<0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15>;
+      /** All laws, in the order of the manual. */
+      using Laws = LawList<LinearElastic,
+                           MohrCoulomb,
+                           MohrCoulombSoftening,
+                           HypoplasticSand,
+                           MohrCoulombStiffening,
+                           HypoplasticIntergranular,
+                           MohrCoulombDensity,
+                           ModifiedCamClay,
+                           NgiAdp,
+                           NorSand,
+                           UserMaterial>;
+
+      template <typename Law, typename... All>
+      constexpr int
+      place_of(LawList<All...>)
+      {
+        int result = -1, place = 0;
+        ((__is_same(Law, All) ? result = place : 0, ++place), ...);
+        return result;
+      }
+
+      /** Material::law of a law: its place among Laws. */
+      template <typename Law>
+      constexpr int law_id = place_of<Law>(Laws());
 
       // ------------------------------------------------------ parameters
 
-      /** Call action(law, parameters) if the material's law is this one. */
-      template <int slot, typename Action>
+      template <typename Action, typename... Law>
       [[gnu::always_inline]] inline void
-      with_slot(const Material &material, const Action &action)
+      with_law(const Material &material, const Action &action, LawList<Law...>)
       {
-        if constexpr (SlotNumber<slot>::is_taken)
-          if (material.law == slot)
-            {
-              using Law = typename SlotNumber<slot>::Law;
-              action(Law(),
-                     reinterpret_cast<const typename Law::Parameters &>(
-                       material.parameters));
-            }
-      }
-
-      template <typename Action, int... slot>
-      [[gnu::always_inline]] inline void
-      with_law(const Material &material,
-               const Action   &action,
-               SlotList<slot...>)
-      {
-        (with_slot<slot>(material, action), ...);
+        ((material.law == law_id<Law> ?
+            action(Law(),
+                   reinterpret_cast<const typename Law::Parameters &>(
+                     material.parameters)) :
+            void()),
+         ...);
       }
 
       /** Call action(law, parameters) with the law of the material. */
@@ -73,23 +76,8 @@ namespace CaissonMPM
       [[gnu::always_inline]] inline void
       with_law(const Material &material, const Action &action)
       {
-        with_law(material, action, Slots());
+        with_law(material, action, Laws());
       }
-
-      template <typename Law, int... slot>
-      constexpr int
-      slot_of(SlotList<slot...>)
-      {
-        int result = -1;
-        ((__is_same(Law, typename LawSlot<slot>::type) ? (void)(result = slot) :
-                                                         (void)0),
-         ...);
-        return result;
-      }
-
-      /** Material::law of a law. */
-      template <typename Law>
-      constexpr int law_id = slot_of<Law>(Slots());
 
       /** Write a law and its parameters into a material. */
       template <typename Law>
@@ -98,6 +86,8 @@ namespace CaissonMPM
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
                       "enlarge Material::parameters (material.h)");
+        static_assert(Law::n_state <= n_state_variables,
+                      "enlarge n_state_variables (material.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = Law::volume_in_shear(parameters);
         material.is_frictionless = Law::is_frictionless(parameters);
@@ -112,7 +102,7 @@ namespace CaissonMPM
       /** A law for code that is not compiled for each law. */
       struct LawDescription
       {
-        const char *name; // null: the slot is free
+        const char *name;
         int         n_entries;
         bool        stiffness_varies;
         bool        has_yield_surface;
@@ -120,184 +110,51 @@ namespace CaissonMPM
 
         const Entry &(*entry)(const int i);
 
-        /** Whether the values fit together; if not, why. */
-        bool (*check)(const double *values, const LawContext &, LawMessage &);
-
-        /** What the law is known not to describe with these values, or null. */
-        const char *(*warning)(const double *values);
-
         /** Write the law and its parameters into the material. */
         void (*set)(Material &, const double *values);
-
-        double (*earth_pressure_at_rest)(const Material &);
-
-        /** @p stress: rr, zz, tt, rz. Units: Pa. */
-        double (*p_wave_modulus)(const Material &,
-                                 const double *stress,
-                                 const double  void_ratio);
-
-        /** The void ratio of the soil itself: what is more is a gap. */
-        double (*void_ratio_of_soil)(const Material &,
-                                     const double *stress,
-                                     const double  void_ratio);
-
-        /** The variables of a point at the start [n_state_variables]. */
-        void (*start)(const Material &, double *variable);
-
-        /** Units: Pa. */
-        double (*yield_stress)(const Material &,
-                               const double *stress,
-                               const double  void_ratio,
-                               const double *variable);
       };
 
-      /** The functions of a description. */
-      template <int slot>
-      struct LawFunctions
+      template <typename Law>
+      constexpr const Entry &
+      entry_of(const int i)
       {
-        using Law        = typename SlotNumber<slot>::Law;
-        using Parameters = typename Law::Parameters;
+        return Law::entries[i].entry;
+      }
 
-        static_assert(Law::n_state <= n_state_variables,
-                      "enlarge n_state_variables (material.h)");
+      template <typename Law>
+      inline void
+      set_values(Material &material, const double *values)
+      {
+        set_law<Law>(material, read_parameters<Law>(values));
+      }
 
-        static const Parameters &
-        parameters(const Material &material)
-        {
-          return reinterpret_cast<const Parameters &>(material.parameters);
-        }
-
-        static constexpr const Entry &
-        entry(const int i)
-        {
-          return Law::entries[i].entry;
-        }
-
-        static bool
-        check(const double     *values,
-              const LawContext &context,
-              LawMessage       &message)
-        {
-          return Law::check(read_parameters<Law>(values), context, message);
-        }
-
-        static const char *
-        warning(const double *values)
-        {
-          return Law::warning(read_parameters<Law>(values));
-        }
-
-        static void
-        set(Material &material, const double *values)
-        {
-          set_law<Law>(material, read_parameters<Law>(values));
-        }
-
-        static double
-        earth_pressure_at_rest(const Material &material)
-        {
-          return Law::earth_pressure_at_rest(parameters(material));
-        }
-
-        static double
-        p_wave_modulus(const Material &material,
-                       const double   *stress,
-                       const double    void_ratio)
-        {
-          return Law::p_wave_modulus(
-            StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
-            Lanes<1>(void_ratio),
-            parameters(material))[0];
-        }
-
-        static double
-        void_ratio_of_soil(const Material &material,
-                           const double   *stress,
-                           const double    void_ratio)
-        {
-          if constexpr (Law::has_loosest_state)
-            if (material.has_loosest_state)
-              {
-                const double loosest =
-                  Law::loosest_void_ratio(StressState<Lanes<1>>{stress[0],
-                                                                stress[1],
-                                                                stress[2],
-                                                                stress[3]},
-                                          parameters(material))[0];
-                return void_ratio < loosest ? void_ratio : loosest;
-              }
-          (void)material;
-          (void)stress;
-          return void_ratio;
-        }
-
-        static void
-        start(const Material &material, double *variable)
-        {
-          for (int i = 0; i < n_state_variables; ++i)
-            variable[i] = 0.;
-          Law::start(parameters(material), variable);
-        }
-
-        static double
-        yield_stress(const Material &material,
-                     const double   *stress,
-                     const double    void_ratio,
-                     const double   *variable)
-        {
-          if constexpr (Law::has_yield_stress)
-            return Law::yield_stress(
-              StressState<Lanes<1>>{stress[0], stress[1], stress[2], stress[3]},
-              Lanes<1>(void_ratio),
-              Lanes<1>(variable[0]),
-              parameters(material))[0];
-          (void)material, (void)stress, (void)void_ratio, (void)variable;
-          return 0.;
-        }
-      };
-
-      template <int slot>
+      template <typename Law>
       constexpr LawDescription
       describe()
       {
-        if constexpr (SlotNumber<slot>::is_taken)
-          {
-            using Law = typename SlotNumber<slot>::Law;
-            using F   = LawFunctions<slot>;
-            return {Law::name,
-                    n_entries<Law>,
-                    Law::stiffness_varies,
-                    Law::has_yield_surface,
-                    Law::has_yield_stress,
-                    &F::entry,
-                    &F::check,
-                    &F::warning,
-                    &F::set,
-                    &F::earth_pressure_at_rest,
-                    &F::p_wave_modulus,
-                    &F::void_ratio_of_soil,
-                    &F::start,
-                    &F::yield_stress};
-          }
-        else
-          return {};
+        return {Law::name,
+                n_entries<Law>,
+                Law::stiffness_varies,
+                Law::has_yield_surface,
+                Law::has_yield_stress,
+                &entry_of<Law>,
+                &set_values<Law>};
       }
 
-      /** All slots, the free ones without a name. */
       template <int n>
       struct LawTable
       {
         LawDescription law[n];
       };
 
-      template <int... slot>
-      constexpr LawTable<sizeof...(slot)>
-      describe_all(SlotList<slot...>)
+      template <typename... Law>
+      constexpr LawTable<sizeof...(Law)>
+      describe_all(LawList<Law...>)
       {
-        return {{describe<slot>()...}};
+        return {{describe<Law>()...}};
       }
 
-      inline constexpr LawTable law_table = describe_all(Slots());
+      inline constexpr LawTable law_table = describe_all(Laws());
 
       // ------------------------------------------------------ shared entries
 

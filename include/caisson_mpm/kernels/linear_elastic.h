@@ -47,12 +47,6 @@ namespace CaissonMPM
           add_elastic_increment(sigma, de, parameters.lambda, parameters.mu);
         }
       };
-
-      template <>
-      struct LawSlot<0>
-      {
-        using type = LinearElastic;
-      };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // What a material law consists of, apart from its equations. A law is one
-// header with one struct, here called Law, and is registered by including that
-// header in laws.h. It derives from MaterialLaw, which has a default of all but
+// header with one struct, here called Law, and is registered by two lines in
+// laws.h. It derives from MaterialLaw, which has a default of all but
 //
 //   static constexpr const char *name;   // the value of the entry "Law"
 //   struct Parameters;                   // plain data: the values of the
@@ -15,10 +15,6 @@
 //   template <typename Number>
 //   static void update(StressState<Number> &, const StrainIncrement<Number> &,
 //                      LawState<Number> &, const Parameters &);
-//
-// and, below the struct, the number by which the kernels know it:
-//
-//   template <> struct LawSlot<7> { using type = Law; };
 //
 // update() may not branch on single lanes: select(), any().
 #ifndef caisson_mpm_kernels_material_law_h
@@ -70,11 +66,11 @@ namespace CaissonMPM
       constexpr int n_entries = sizeof(Law::entries) / sizeof(Law::entries[0]);
 
       /** The entries of another law, and more. */
-      template <typename Parameters, typename Other, int n, int n_more>
-      constexpr LawEntries<Parameters, n + n_more>
-      joined(const LawEntry<Other> (&first)[n],
-             const LawEntry<Parameters> (&more)[n_more])
+      template <typename Parameters, typename Entries, int n_more>
+      constexpr auto
+      joined(const Entries &first, const LawEntry<Parameters> (&more)[n_more])
       {
+        constexpr int                      n = sizeof(first) / sizeof(first[0]);
         LawEntries<Parameters, n + n_more> result{};
         for (int i = 0; i < n; ++i)
           result.entries[i] = {first[i].value, first[i].entry};
@@ -178,14 +174,16 @@ namespace CaissonMPM
         constexpr Entry friction_angle = {
           "Friction angle",
           "degrees",
-          "The effective friction angle phi is the peak value where the law softens.",
+          "The effective friction angle phi is the peak value where the law "
+          "softens.",
           30.,
           0.,
           60.};
         constexpr Entry dilatancy_angle = {
           "Dilatancy angle",
           "degrees",
-          "The dilatancy angle psi, at most phi, is the peak value where the law softens.",
+          "The dilatancy angle psi, at most phi, is the peak value where the "
+          "law softens.",
           0.,
           0.,
           60.};
@@ -199,7 +197,8 @@ namespace CaissonMPM
         constexpr Entry largest_void_ratio = {
           "Largest void ratio",
           "",
-          "Dilatant soil is nowhere looser than this, unloaded: it shears at constant volume from then on, and a gap must close before it bears.",
+          "Dilatant soil is nowhere looser than this, unloaded: it shears at "
+          "constant volume from then on, and a gap must close before it bears.",
           2.,
           0.,
           no_limit};
@@ -234,7 +233,8 @@ namespace CaissonMPM
         constexpr Entry yield_stress_ratio = {
           "Yield stress ratio",
           "",
-          "The size of the yield surface of a point at the start over that of the one through its stress: 1 in normally consolidated soil.",
+          "The size of the yield surface of a point at the start over that of "
+          "the one through its stress: 1 in normally consolidated soil.",
           1.,
           1.,
           1e3};
@@ -380,13 +380,6 @@ namespace CaissonMPM
         {
           return p.p_wave_modulus();
         }
-      };
-
-      /** The law of this number, Material::law; void: none. */
-      template <int slot>
-      struct LawSlot
-      {
-        using type = void;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

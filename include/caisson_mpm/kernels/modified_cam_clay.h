@@ -62,14 +62,16 @@ namespace CaissonMPM
           {&Parameters::lambda,
            {"Slope of compression",
             "",
-            "The slope lambda of the normal compression line, -de / d(ln p); the compression index over 2.3.",
+            "The slope lambda of the normal compression line, -de / d(ln p); "
+            "the compression index over 2.3.",
             0.2,
             1e-4,
             10.}},
           {&Parameters::kappa,
            {"Slope of swelling",
             "",
-            "The slope kappa of the lines of swelling, -de / d(ln p); the swelling index over 2.3.",
+            "The slope kappa of the lines of swelling, -de / d(ln p); the "
+            "swelling index over 2.3.",
             0.04,
             1e-5,
             10.}},
@@ -86,7 +88,8 @@ namespace CaissonMPM
         {
           if (p.kappa >= p.lambda)
             return message.refuse(
-              "Slope of swelling is not below Slope of compression. Reduce it.");
+              "Slope of swelling is not below Slope of compression. Reduce "
+              "it.");
           if (context.void_ratio <= 0.)
             return message.refuse(
               "the void ratio at the start is 0. Set Void ratio.");
@@ -247,12 +250,6 @@ namespace CaissonMPM
 
         static constexpr int    most_iterations = 8;
         static constexpr double least_stress    = 1.; // Pa
-      };
-
-      template <>
-      struct LawSlot<8>
-      {
-        using type = ModifiedCamClay;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

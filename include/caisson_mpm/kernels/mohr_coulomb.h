@@ -14,6 +14,21 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
+      /** What the laws of Mohr-Coulomb ask for. */
+      struct MohrCoulombEntries : Elasticity
+      {
+        double friction_angle, dilatancy_angle = 0.; // degrees
+        double cohesion = 0., tension_cutoff = 0.;   // Pa
+      };
+
+      constexpr LawEntry<MohrCoulombEntries> mohr_coulomb_entries[] = {
+        {&MohrCoulombEntries::youngs_modulus, Entries::youngs_modulus},
+        {&MohrCoulombEntries::poisson_ratio, Entries::poisson_ratio},
+        {&MohrCoulombEntries::friction_angle, Entries::friction_angle},
+        {&MohrCoulombEntries::dilatancy_angle, Entries::dilatancy_angle},
+        {&MohrCoulombEntries::cohesion, Entries::cohesion},
+        {&MohrCoulombEntries::tension_cutoff, Entries::tension_cutoff}};
+
       /** The law "Mohr-Coulomb": perfect plasticity, whose strength all points
        * of a material share. See the head of the file. */
       struct MohrCoulomb : ElasticLaw
@@ -23,11 +38,9 @@ namespace CaissonMPM
         static constexpr bool        has_yield_surface = true;
         static constexpr bool        has_loosest_state = true;
 
-        struct Parameters : Elasticity
+        struct Parameters : MohrCoulombEntries
         {
-          double friction_angle, dilatancy_angle = 0.; // degrees
-          double cohesion = 0., tension_cutoff = 0.;   // Pa
-          double largest_void_ratio = no_limit;        // of dilation
+          double largest_void_ratio = no_limit; // of dilation
           MohrCoulombStrength<double> strength;
 
           void
@@ -45,14 +58,10 @@ namespace CaissonMPM
           }
         };
 
-        static constexpr LawEntry<Parameters> entries[] = {
-          {&Parameters::youngs_modulus, Entries::youngs_modulus},
-          {&Parameters::poisson_ratio, Entries::poisson_ratio},
-          {&Parameters::friction_angle, Entries::friction_angle},
-          {&Parameters::dilatancy_angle, Entries::dilatancy_angle},
-          {&Parameters::cohesion, Entries::cohesion},
-          {&Parameters::tension_cutoff, Entries::tension_cutoff},
-          {&Parameters::largest_void_ratio, Entries::largest_void_ratio}};
+        static constexpr auto entries =
+          joined<Parameters>(mohr_coulomb_entries,
+                             {{&Parameters::largest_void_ratio,
+                               Entries::largest_void_ratio}});
 
         static VolumeInShear
         volume_in_shear(const Parameters &p)
@@ -115,8 +124,8 @@ namespace CaissonMPM
         warning(const Parameters &p)
         {
           return p.dilatancy_angle > 0. ?
-                   "Mohr-Coulomb sand with a dilatancy angle grows in volume at "
-                   "the same rate up to Largest void ratio. A plug then heaves "
+                   "Mohr-Coulomb sand with a dilatancy angle grows in volume "
+                   "at the same rate up to Largest void ratio. A plug then heaves "
                    "two to three times as much as the wall displaces, and the "
                    "outer friction is too large. Set Law = Mohr-Coulomb by "
                    "density and stress, or the Largest void ratio of the "
@@ -232,10 +241,7 @@ namespace CaissonMPM
                                       Number(1.));
           state.plastic_volumetric -=
             (Number(1.) - share) * before * Number(1. / p.bulk);
-          sigma = {share * sigma.rr,
-                   share * sigma.zz,
-                   share * sigma.tt,
-                   share * sigma.rz};
+          sigma = scaled(share, sigma);
         }
 
         /** The update where soil in the lanes @p loose dilates no more. */
@@ -261,12 +267,6 @@ namespace CaissonMPM
               Number(p.cohesion),
               p.tension_cutoff));
         }
-      };
-
-      template <>
-      struct LawSlot<1>
-      {
-        using type = MohrCoulomb;
       };
 
       /** What check() of a law with these three entries looks at. */

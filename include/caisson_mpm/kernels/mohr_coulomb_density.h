@@ -92,21 +92,25 @@ namespace CaissonMPM
           {&Parameters::bolton_q,
            {"Bolton Q",
             "",
-            "Q of Bolton's dilatancy index stands for the strength of the grains: 10 for quartz and feldspar, 8 for limestone, 5.5 for chalk.",
+            "Q of Bolton's dilatancy index stands for the strength of the "
+            "grains: 10 for quartz and feldspar, 8 for limestone, 5.5 for "
+            "chalk.",
             10.,
             4.,
             15.}},
           {&Parameters::degrees_per_index,
            {"Degrees per dilatancy index",
             "degrees",
-            "The friction angle exceeds the critical one by this times Bolton's dilatancy index: 3 in triaxial and 5 in plane strain.",
+            "The friction angle exceeds the critical one by this times "
+            "Bolton's dilatancy index: 3 in triaxial and 5 in plane strain.",
             3.,
             0.,
             5.}},
           {&Parameters::smallest_stress,
            {"Smallest stress of strength",
             "Pa",
-            "Below this mean effective stress Bolton's dilatancy index rises no further.",
+            "Below this mean effective stress Bolton's dilatancy index rises "
+            "no further.",
             1.5e5,
             1.,
             no_limit}},
@@ -117,7 +121,9 @@ namespace CaissonMPM
           {&Parameters::reference_void_ratio,
            {"Reference void ratio",
             "",
-            "Young's modulus is that of this void ratio, and follows the density by Hardin's (2.17 - e)2/(1 + e); with 0 it does not depend on the density.",
+            "Young's modulus is that of this void ratio, and follows the "
+            "density by Hardin's (2.17 - e)2/(1 + e); with 0 it does not "
+            "depend on the density.",
             0.,
             0.,
             2.}}};
@@ -297,8 +303,8 @@ namespace CaissonMPM
             return true;
           return message.refuse(
             "K0 = %g lies outside what sand of the void ratio %g carries with "
-            "Critical friction angle = %g degrees (%.3g to %.3g). Change one of "
-            "them.",
+            "Critical friction angle = %g degrees (%.3g to %.3g). Change one "
+            "of them.",
             k,
             context.void_ratio,
             p.friction_angle,
@@ -365,12 +371,6 @@ namespace CaissonMPM
                                                    Number(0.),
                                                    0.);
         }
-      };
-
-      template <>
-      struct LawSlot<6>
-      {
-        using type = MohrCoulombDensity;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -40,9 +40,8 @@ namespace CaissonMPM
         static constexpr const char *name = "Mohr-Coulomb with softening";
         static constexpr bool        has_yield_surface = true;
 
-        struct Parameters : Elasticity
+        struct Parameters : MohrCoulombEntries
         {
-          double friction_angle, dilatancy_angle, cohesion, tension_cutoff;
           double residual_friction, residual_dilatancy, residual_cohesion;
           double shape_factor;
 
@@ -61,43 +60,38 @@ namespace CaissonMPM
           }
         };
 
-        static constexpr LawEntry<Parameters> entries[] = {
-          {&Parameters::youngs_modulus, Entries::youngs_modulus},
-          {&Parameters::poisson_ratio, Entries::poisson_ratio},
-          {&Parameters::friction_angle, Entries::friction_angle},
-          {&Parameters::dilatancy_angle, Entries::dilatancy_angle},
-          {&Parameters::cohesion, Entries::cohesion},
-          {&Parameters::tension_cutoff, Entries::tension_cutoff},
-          {&Parameters::residual_friction,
-           {"Residual friction angle",
-            "degrees",
-            "The residual friction angle is that after much plastic strain.",
-            30.,
-            0.,
-            60.}},
-          {&Parameters::residual_dilatancy,
-           {"Residual dilatancy angle",
-            "degrees",
-            "The residual dilatancy angle is that after much plastic strain.",
-            0.,
-            0.,
-            60.}},
-          {&Parameters::residual_cohesion,
-           {"Residual cohesion",
-            "Pa",
-            "The residual cohesion is that after much plastic strain.",
-            0.,
-            0.,
-            no_limit}},
-          {&Parameters::shape_factor,
-           {"Softening shape factor",
-            "",
-            "The strength falls from its peak to its residual value with "
-            "exp(-eta e), where eta is this factor and e the accumulated "
-            "deviatoric plastic strain.",
-            10.,
-            0.,
-            no_limit}}};
+        static constexpr auto entries = joined<Parameters>(
+          mohr_coulomb_entries,
+          {{&Parameters::residual_friction,
+            {"Residual friction angle",
+             "degrees",
+             "The residual friction angle is that after much plastic strain.",
+             30.,
+             0.,
+             60.}},
+           {&Parameters::residual_dilatancy,
+            {"Residual dilatancy angle",
+             "degrees",
+             "The residual dilatancy angle is that after much plastic strain.",
+             0.,
+             0.,
+             60.}},
+           {&Parameters::residual_cohesion,
+            {"Residual cohesion",
+             "Pa",
+             "The residual cohesion is that after much plastic strain.",
+             0.,
+             0.,
+             no_limit}},
+           {&Parameters::shape_factor,
+            {"Softening shape factor",
+             "",
+             "The strength falls from its peak to its residual value with "
+             "exp(-eta e), where eta is this factor and e the accumulated "
+             "deviatoric plastic strain.",
+             10.,
+             0.,
+             no_limit}}});
 
         static const char *
         warning(const Parameters &)
@@ -189,12 +183,6 @@ namespace CaissonMPM
                            p.residual_cohesion + p.cohesion_lost * left,
                            p.tension_cutoff));
         }
-      };
-
-      template <>
-      struct LawSlot<2>
-      {
-        using type = MohrCoulombSoftening;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -22,13 +22,6 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      template <typename Number>
-      [[gnu::always_inline]] inline StrainIncrement<Number>
-      scaled(const Number factor, const StrainIncrement<Number> &de)
-      {
-        return {factor * de.rr, factor * de.zz, factor * de.tt, factor * de.rz};
-      }
-
       /** The law "Mohr-Coulomb with stiffness by stress": the strength is that
        * of Mohr-Coulomb, the stiffness of each point follows from its stress.
        * See the head of the file. */
@@ -185,12 +178,6 @@ namespace CaissonMPM
                     state,
                     p);
         }
-      };
-
-      template <>
-      struct LawSlot<4>
-      {
-        using type = MohrCoulombStiffening;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

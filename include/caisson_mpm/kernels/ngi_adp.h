@@ -95,28 +95,32 @@ namespace CaissonMPM
           {&Parameters::active,
            {"Active strength",
             "Pa",
-            "The undrained shear strength s_uA of clay in active compression along the vertical.",
+            "The undrained shear strength s_uA of clay in active compression "
+            "along the vertical.",
             10e3,
             1e-3,
             no_limit}},
           {&Parameters::direct_ratio,
            {"Direct shear strength ratio",
             "",
-            "The undrained shear strength of direct simple shear over the active one, s_uDSS / s_uA.",
+            "The undrained shear strength of direct simple shear over the "
+            "active one, s_uDSS / s_uA.",
             0.7,
             0.05,
             2.}},
           {&Parameters::passive_ratio,
            {"Passive strength ratio",
             "",
-            "The undrained shear strength of passive extension over the active one, s_uP / s_uA.",
+            "The undrained shear strength of passive extension over the active "
+            "one, s_uP / s_uA.",
             0.5,
             0.05,
             1.}},
           {&Parameters::active_failure,
            {"Active failure strain",
             "",
-            "The shear strain at failure in active compression, 3/2 of the axial strain.",
+            "The shear strain at failure in active compression, 3/2 of the "
+            "axial strain.",
             0.02,
             1e-5,
             1.}},
@@ -130,14 +134,16 @@ namespace CaissonMPM
           {&Parameters::passive_failure,
            {"Passive failure strain",
             "",
-            "The shear strain at failure in passive extension, 3/2 of the axial strain.",
+            "The shear strain at failure in passive extension, 3/2 of the "
+            "axial strain.",
             0.06,
             1e-5,
             1.}},
           {&Parameters::modulus_ratio,
            {"Unloading shear modulus ratio",
             "",
-            "The shear modulus G_ur of unloading and reloading over the active strength.",
+            "The shear modulus G_ur of unloading and reloading over the active "
+            "strength.",
             500.,
             1.,
             1e5}},
@@ -470,12 +476,6 @@ namespace CaissonMPM
 
         static constexpr int    most_iterations = 6;
         static constexpr double least_strain    = 1e-6;
-      };
-
-      template <>
-      struct LawSlot<9>
-      {
-        using type = NgiAdp;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -102,28 +102,32 @@ namespace CaissonMPM
           {&Parameters::critical_void_ratio,
            {"Critical void ratio at 1 kPa",
             "",
-            "The void ratio Gamma of the critical state at a mean effective stress of 1 kPa.",
+            "The void ratio Gamma of the critical state at a mean effective "
+            "stress of 1 kPa.",
             0.816,
             0.1,
             19.}},
           {&Parameters::slope_of_line,
            {"Slope of the critical state",
             "",
-            "The slope lambda of the critical state line, -de / d(ln p); that of decades over 2.3.",
+            "The slope lambda of the critical state line, -de / d(ln p); that "
+            "of decades over 2.3.",
             0.0135,
             1e-4,
             1.}},
           {&Parameters::coupling,
            {"Volumetric coupling",
             "",
-            "The parameter N by which the stress ratio of zero dilatancy falls off the critical state.",
+            "The parameter N by which the stress ratio of zero dilatancy falls "
+            "off the critical state.",
             0.3,
             0.,
             0.9}},
           {&Parameters::chi,
            {"State dilatancy",
             "",
-            "The parameter chi, the largest dilatancy in triaxial compression over the state parameter there.",
+            "The parameter chi, the largest dilatancy in triaxial compression "
+            "over the state parameter there.",
             3.5,
             0.,
             10.}},
@@ -209,13 +213,7 @@ namespace CaissonMPM
           const Number e      = state.void_ratio;
           const Number image  = yield_stress(sigma, e, state.variable[0], p);
           const Number factor = p.stiffening(sigma);
-          add_elastic_increment(sigma,
-                                StrainIncrement<Number>{factor * de.rr,
-                                                        factor * de.zz,
-                                                        factor * de.tt,
-                                                        factor * de.rz},
-                                p.lambda,
-                                p.mu);
+          add_elastic_increment(sigma, scaled(factor, de), p.lambda, p.mu);
           const Invariants    trial(sigma, p.slope);
           const State<Number> now(image, e, p);
           Return<Number>      back{max(trial.p, Number(least_stress)),
@@ -355,8 +353,8 @@ namespace CaissonMPM
                          p.slope.share_at_rest(context.earth_pressure_at_rest);
           if (y < least_dilatant || y > p.most_dilatant)
             return message.refuse(
-              "Void ratio = %g makes a state parameter of %g at a mean stress of "
-              "%g Pa, and the law holds from %g to %g. Correct it, or Critical "
+              "Void ratio = %g makes a state parameter of %g at a mean stress "
+              "of %g Pa, and the law holds from %g to %g. Correct it, or Critical "
               "void ratio at 1 kPa.",
               context.void_ratio,
               psi,
@@ -366,8 +364,8 @@ namespace CaissonMPM
           const double peak = 1. - p.coupling * (y > 0. ? y : -y) + y;
           return share < peak ||
                  message.refuse(
-                   "K0 = %g is beyond the peak strength, at a state parameter of "
-                   "%g. Correct it, Void ratio or Critical friction angle.",
+                   "K0 = %g is beyond the peak strength, at a state parameter "
+                   "of %g. Correct it, Void ratio or Critical friction angle.",
                    context.earth_pressure_at_rest,
                    psi);
         }
@@ -383,12 +381,6 @@ namespace CaissonMPM
         static constexpr double least_stress    = 1e-3; // Pa
         static constexpr double least_dilatant  = -.45; // y
         static constexpr double log_of_1_kPa    = 6.907755278982137;
-      };
-
-      template <>
-      struct LawSlot<10>
-      {
-        using type = NorSand;
       };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

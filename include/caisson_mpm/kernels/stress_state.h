@@ -29,10 +29,7 @@ namespace CaissonMPM
 
       /** Strain increment of one step; rz is tensorial. Units: none. */
       template <typename Number>
-      struct StrainIncrement
-      {
-        Number rr, zz, tt, rz;
-      };
+      using StrainIncrement = StressState<Number>;
 
       /** The mean pressure, compression positive. */
       template <typename Number>

@@ -122,6 +122,18 @@ namespace CaissonMPM
         double        inverse_mean_height;
       };
 
+      /** A block of points that is to be updated. */
+      struct BlockUpdate
+      {
+        PointBlock           &points;
+        PointHistory         &history;
+        const Material       &material;
+        const CellUpdate     &cell;
+        const UpdateSettings &settings;
+        int                   count;    // of points, besides padding
+        int                   in_group; // the number of the cell
+      };
+
       /** What a point feels of the velocity field in a step. */
       template <typename Number>
       struct StepOfStrain
@@ -417,12 +429,8 @@ namespace CaissonMPM
                      after            = relative_volume * growth;
         if (kirchhoff)
           {
-            stress             = scaled(Number(1.) / growth, stress);
-            const Number share = Number(1.) / after;
-            strain             = {share * strain.rr,
-                                  share * strain.zz,
-                                  share * strain.tt,
-                                  share * strain.rz};
+            stress = scaled(Number(1.) / growth, stress);
+            strain = scaled(Number(1.) / after, strain);
           }
         if constexpr (Law::has_yield_surface)
           {

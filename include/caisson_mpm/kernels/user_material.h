@@ -52,12 +52,6 @@ namespace CaissonMPM
           return Number(p.modulus);
         }
       };
-
-      template <>
-      struct LawSlot<11>
-      {
-        using type = UserMaterial;
-      };
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

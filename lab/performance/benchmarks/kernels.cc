@@ -30,8 +30,8 @@ namespace
 {
   using namespace CaissonMPM::Kernels;
 
-  constexpr double friction_angle = 30., density = 1900.,
-                   gravity = 9.81, cell_size = .1, K0 = .5;
+  constexpr double friction_angle = 30., density = 1900., gravity = 9.81,
+                   cell_size = .1, K0 = .5;
 
   /** A column of soil 50 cells wide with its blocks, as MaterialPoints lays
    * them out. */
