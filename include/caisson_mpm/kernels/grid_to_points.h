@@ -100,35 +100,31 @@ namespace CaissonMPM
         {}
       };
 
-      /** Update stress and volume of the points in the lanes from @p lane on,
-       * @p count to the end of their block, or let them wait; @p in_group is the
-       * number of the cell. */
+      /** Update stress and volume of the points in the lanes from @p lane on, or
+       * let them wait. */
       template <typename Law, typename Number, typename Waiting>
       [[gnu::always_inline]] inline void
-      update_stress_of_lanes(PointBlock               &b,
-                             PointHistory             &history,
+      update_stress_of_lanes(const BlockUpdate        &u,
                              const int                 lane,
-                             const int                 count,
-                             const int                 in_group,
                              const LocalPoint<Number> &p,
-                             const CellUpdate         &cell,
-                             const UpdateSettings     &settings,
-                             const Material           &material,
                              UpdateSums<Number>       &sums,
                              Waiting                  &waiting)
       {
-        const auto &parameters =
+        PointBlock     &b        = u.points;
+        const Material &material = u.material;
+        const auto     &parameters =
           reinterpret_cast<const typename Law::Parameters &>(
             material.parameters);
-        StressStep<Number> s = begin_stress_step(b, lane, p, cell, settings);
-        bool               is_loose = false;
+        StressStep<Number> s =
+          begin_stress_step(b, lane, p, u.cell, u.settings);
+        bool is_loose = false;
         if constexpr (Law::has_loosest_state)
-          if (cell.has_loose_points && material.has_loosest_state)
-            is_loose = hold_loose_points<Law, Number>(
-              b, history, lane, material, parameters, cell, settings, s.step);
+          if (u.cell.has_loose_points && material.has_loosest_state)
+            is_loose =
+              hold_loose_points<Law, Number>(u, lane, parameters, s.step);
         if constexpr (Law::is_packed)
           return waiting.template add<Law>(
-            b, history, lane, count, s, p, parameters, in_group);
+            b, u.history, lane, u.count - lane, s, p, parameters, u.in_group);
         const Number mass   = Number::load(b.mass + lane),
                      volume = Number::load(b.volume + lane),
                      after  = volume * (Number(1.) + s.step.volume_change);
@@ -150,18 +146,18 @@ namespace CaissonMPM
                 }
               if (!Law::needs_void_ratio(parameters) &&
                   material.overstress_time == 0.)
-                return waiting.add(b, s, p, material, in_group);
+                return waiting.add(b, s, p, material, u.in_group);
             }
         sums.add_work(p,
                       mass,
                       volume,
                       update_stress<Law>(b,
-                                         history,
+                                         u.history,
                                          lane,
                                          s,
                                          {material.initial_void_ratio,
                                           material.overstress_time /
-                                            settings.time_step,
+                                            u.settings.time_step,
                                           material.stress_measure,
                                           parameters}));
       }
@@ -170,36 +166,22 @@ namespace CaissonMPM
        * cell. */
       template <typename Law, int n_lanes, typename Number, typename Waiting>
       [[gnu::always_inline]] inline unsigned int
-      update_block(PointBlock           &b,
-                   PointHistory         &history,
-                   const int             count,
-                   const int             in_group,
-                   const CellUpdate     &cell,
-                   const UpdateSettings &settings,
-                   const Material       &material,
-                   unsigned int         &limited,
-                   UpdateSums<Number>   &sums,
-                   Waiting              &waiting)
+      update_block(const BlockUpdate  &u,
+                   unsigned int       &limited,
+                   UpdateSums<Number> &sums,
+                   Waiting            &waiting)
       {
+        PointBlock  &b       = u.points;
         unsigned int outside = 0;
         limited              = 0;
         for (int lane = 0; lane < n_lanes; lane += Number::width)
           {
             Number r = Number::load(b.r + lane), z = Number::load(b.z + lane);
-            const LocalPoint<Number> p = cell.map.at_position(r, z);
-            update_stress_of_lanes<Law>(b,
-                                        history,
-                                        lane,
-                                        count - lane,
-                                        in_group,
-                                        p,
-                                        cell,
-                                        settings,
-                                        material,
-                                        sums,
-                                        waiting);
-            limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
-            outside |= to_integer(!cell.moved.contains(r, z)) << lane;
+            const LocalPoint<Number> p = u.cell.map.at_position(r, z);
+            update_stress_of_lanes<Law>(u, lane, p, sums, waiting);
+            limited |= move_points(b, lane, p, u.cell, u.settings, r, z)
+                       << lane;
+            outside |= to_integer(!u.cell.moved.contains(r, z)) << lane;
           }
         return outside;
       }
@@ -208,62 +190,19 @@ namespace CaissonMPM
        * points of other laws stays as short as it is without this. */
       template <typename Law, typename Number>
       [[gnu::noinline]] unsigned int
-      update_packed_block(const PointsView                         &points,
-                          const int                                 block,
-                          const int                                 in_group,
-                          const CellUpdate                         &cell,
-                          const UpdateSettings                     &settings,
-                          const Material                           &material,
+      update_packed_block(const BlockHeader                        &header,
+                          const BlockUpdate                        &u,
                           unsigned int                             &limited,
                           const typename PackedPoints<Number>::Sums sums,
                           PackedPoints<Number>                     &packed)
       {
-        const BlockHeader  header  = points.headers[block];
         unsigned int       outside = 0;
         UpdateSums<Number> no_sums; // packed points are added later
-        packed.prepare(material, sums);
+        packed.prepare(u.material, sums);
         with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
-          outside = update_block<Law, n_lanes>(points.blocks[block],
-                                               points.histories[block],
-                                               header.count,
-                                               in_group,
-                                               cell,
-                                               settings,
-                                               material,
-                                               limited,
-                                               no_sums,
-                                               packed);
+          outside = update_block<Law, n_lanes>(u, limited, no_sums, packed);
         });
         return outside;
-      }
-
-      /** Update a block of a law that is packed, or that the user has written.
-       */
-      template <typename Law, typename Number>
-      [[gnu::always_inline]] inline unsigned int
-      update_block_apart(const PointsView         &points,
-                         const int                 block,
-                         const int                 in_group,
-                         const CellUpdate         &cell,
-                         const UpdateSettings     &settings,
-                         const Material           &material,
-                         unsigned int             &limited,
-                         UpdateSums<Number>       &sums,
-                         UpdateInProgress<Number> &progress)
-      {
-        if constexpr (Law::is_external)
-          return update_user_block<Number>(
-            points, block, cell, settings, material, limited, sums);
-        else
-          return update_packed_block<Law>(points,
-                                          block,
-                                          in_group,
-                                          cell,
-                                          settings,
-                                          material,
-                                          limited,
-                                          progress.of_group,
-                                          progress.packed);
       }
 
       /** Give a field the value at a corner that the cell sees, if it has this
@@ -395,29 +334,25 @@ namespace CaissonMPM
             progress.ahead.advance();
             if (progress.deferred.is_full())
               progress.deferred.update(progress.of_group);
-            unsigned int    outside = 0, limited = 0;
-            const Material &material = step.materials[header.material];
-            with_law(material, [&](auto law, const auto &) CAISSON_LAMBDA {
+            unsigned int      outside = 0, limited = 0;
+            const BlockUpdate u = {points.blocks[block],
+                                   points.histories[block],
+                                   step.materials[header.material],
+                                   update,
+                                   settings,
+                                   header.count,
+                                   in_group};
+            with_law(u.material, [&](auto law, const auto &) CAISSON_LAMBDA {
               using Law = decltype(law);
-              if constexpr (Law::is_packed || Law::is_external)
-                outside = update_block_apart<Law>(points,
-                                                  block,
-                                                  in_group,
-                                                  update,
-                                                  settings,
-                                                  material,
-                                                  limited,
-                                                  sums,
-                                                  progress);
+              if constexpr (Law::is_external)
+                outside =
+                  update_user_block<Number>(points, block, u, limited, sums);
+              else if constexpr (Law::is_packed)
+                outside = update_packed_block<Law>(
+                  header, u, limited, progress.of_group, progress.packed);
               else
                 with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
-                  outside = update_block<Law, n_lanes>(points.blocks[block],
-                                                       points.histories[block],
-                                                       header.count,
-                                                       in_group,
-                                                       update,
-                                                       settings,
-                                                       material,
+                  outside = update_block<Law, n_lanes>(u,
                                                        limited,
                                                        sums,
                                                        progress.deferred);

@@ -108,25 +108,21 @@ namespace CaissonMPM
        * Returns whether there are any. */
       template <typename Law, typename Number>
       [[gnu::always_inline]] inline bool
-      hold_loose_points(const PointBlock               &b,
-                        const PointHistory             &history,
+      hold_loose_points(const BlockUpdate              &u,
                         const int                       lane,
-                        const Material                 &material,
                         const typename Law::Parameters &parameters,
-                        const CellUpdate               &cell,
-                        const UpdateSettings           &settings,
                         StepOfStrain<Number>           &step)
       {
-        const auto loose =
-          in_loosest_state<Law, Number>(b, history, lane, material, parameters);
+        const auto loose = in_loosest_state<Law, Number>(
+          u.points, u.history, lane, u.material, parameters);
         if (!any(loose))
           return false;
-        if (settings.mean_volume_change)
+        if (u.settings.mean_volume_change)
           take_volume_change(select(loose,
-                                    Number(settings.time_step *
-                                           cell.loose_divergence),
+                                    Number(u.settings.time_step *
+                                           u.cell.loose_divergence),
                                     step.volume_change),
-                             cell,
+                             u.cell,
                              step);
         return true;
       }

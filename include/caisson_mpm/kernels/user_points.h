@@ -79,15 +79,10 @@ namespace CaissonMPM
                          const double                    cell_size,
                          const UserMaterial::Parameters &parameters)
       {
-        PointBlock               &b   = points.blocks[block];
-        const StressState<Number> old = s.half_turn(s.old);
-        const StressState<Number> e =
-          s.half_turn(StressState<Number>{s.step.strain.rr,
-                                          s.step.strain.zz,
-                                          s.step.strain.tt,
-                                          s.step.strain.rz});
-        StressStep<Number> turned = s;
-        turned.step.strain        = {e.rr, e.zz, e.tt, e.rz};
+        PointBlock               &b      = points.blocks[block];
+        const StressState<Number> old    = s.half_turn(s.old);
+        StressStep<Number>        turned = s;
+        turned.step.strain               = s.half_turn(s.step.strain);
         UserLanes<Number> lanes(old, turned.step.strain, s);
         for (int i = 0; i < Number::width && i < count; ++i)
           {
@@ -116,18 +111,17 @@ namespace CaissonMPM
        * the sums of its cell; returns the points outside the moved cell. */
       template <typename Number, typename Sums>
       [[gnu::noinline]] unsigned int
-      update_user_block(const PointsView     &points,
-                        const int             block,
-                        const CellUpdate     &cell,
-                        const UpdateSettings &settings,
-                        const Material       &material,
-                        unsigned int         &limited,
-                        Sums                 &sums)
+      update_user_block(const PointsView  &points,
+                        const int          block,
+                        const BlockUpdate &u,
+                        unsigned int      &limited,
+                        Sums              &sums)
       {
-        PointBlock &b = points.blocks[block];
-        const auto &parameters =
+        PointBlock       &b    = u.points;
+        const CellUpdate &cell = u.cell;
+        const auto       &parameters =
           reinterpret_cast<const UserMaterial::Parameters &>(
-            material.parameters);
+            u.material.parameters);
         const double cell_size =
           __builtin_sqrt(cell.map.width * cell.map.mean_height());
         unsigned int outside = 0;
@@ -138,19 +132,19 @@ namespace CaissonMPM
             const LocalPoint<Number> p    = cell.map.at_position(r, z);
             const Number             mass = Number::load(b.mass + lane),
                          volume           = Number::load(b.volume + lane);
-            sums.add_work(
-              p,
-              mass,
-              volume,
-              update_user_points(points,
-                                 block,
-                                 lane,
-                                 points.headers[block].count - lane,
-                                 begin_stress_step(b, lane, p, cell, settings),
-                                 cell_size,
-                                 parameters));
+            sums.add_work(p,
+                          mass,
+                          volume,
+                          update_user_points(
+                            points,
+                            block,
+                            lane,
+                            u.count - lane,
+                            begin_stress_step(b, lane, p, cell, u.settings),
+                            cell_size,
+                            parameters));
             sums.sum[4] += Number::load(b.volume + lane);
-            limited |= move_points(b, lane, p, cell, settings, r, z) << lane;
+            limited |= move_points(b, lane, p, cell, u.settings, r, z) << lane;
             outside |= to_integer(!cell.moved.contains(r, z)) << lane;
           }
         return outside;
