@@ -2,8 +2,8 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/checks/damped_wave.h>
 
-#include <algorithm>
-#include <array>
+#include <deal.II/base/tensor.h>
+
 #include <cmath>
 #include <limits>
 
@@ -11,63 +11,34 @@ namespace CaissonMPM
 {
   namespace
   {
-    using Vector3 = std::array<double, 3>;
-
-    /** Solve a x = b with a symmetric and positive definite. */
-    Vector3
-    solve(std::array<Vector3, 3> a, Vector3 b)
-    {
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int i = k + 1; i < 3; ++i)
-          {
-            const double factor = a[i][k] / a[k][k];
-            for (unsigned int j = k; j < 3; ++j)
-              a[i][j] -= factor * a[k][j];
-            b[i] -= factor * b[k];
-          }
-      for (int i = 2; i >= 0; --i)
-        {
-          for (unsigned int j = i + 1; j < 3; ++j)
-            b[i] -= a[i][j] * b[j];
-          b[i] /= a[i][i];
-        }
-      return b;
-    }
+    using Vector3 = dealii::Tensor<1, 3>;
 
     /** 1, exp(-g t) cos(w t), exp(-g t) sin(w t). */
     Vector3
     basis(const DampedWave &wave, const double t)
     {
       const double decay = std::exp(-wave.damping * t);
-      return {{1.,
-               decay * std::cos(wave.frequency * t),
-               decay * std::sin(wave.frequency * t)}};
+      return Vector3({1.,
+                      decay * std::cos(wave.frequency * t),
+                      decay * std::sin(wave.frequency * t)});
     }
 
     /** The sum of squares that is left with the best c, a and b. */
     double
     misfit(const DampedWave &wave, const Series &s)
     {
-      std::array<Vector3, 3> matrix = {};
-      Vector3                right  = {};
+      dealii::Tensor<2, 3> matrix;
+      Vector3              right;
       for (std::size_t k = 0; k < s.time.size(); ++k)
         {
           const Vector3 f = basis(wave, s.time[k] - s.time[0]);
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              right[i] += f[i] * s.value[k];
-              for (unsigned int j = 0; j < 3; ++j)
-                matrix[i][j] += f[i] * f[j];
-            }
+          right += s.value[k] * f;
+          matrix += outer_product(f, f);
         }
-      const Vector3 x   = solve(matrix, right);
+      const Vector3 x   = invert(matrix) * right;
       double        sum = 0.;
       for (std::size_t k = 0; k < s.time.size(); ++k)
-        {
-          const Vector3 f = basis(wave, s.time[k] - s.time[0]);
-          sum +=
-            std::pow(s.value[k] - x[0] * f[0] - x[1] * f[1] - x[2] * f[2], 2);
-        }
+        sum += std::pow(s.value[k] - x * basis(wave, s.time[k] - s.time[0]), 2);
       return sum;
     }
 

@@ -340,11 +340,12 @@ namespace CaissonMPM
   } // namespace
 
   Verification::Verification()
-    : ParameterAcceptor("/Verification")
+    : Section("/Verification", Influence::none)
   {
     add_parameter(
       "Checks",
       entry,
+      "SI",
       "The checks, separated by semicolons, compare results with exact "
       "solutions at the end of the run. A check of the material points is "
       "written as mode quantity : exact solution : tolerance, with the modes "
@@ -365,8 +366,7 @@ namespace CaissonMPM
       "Errors are relative except where the exact value is 0. " +
         point_quantities_text() +
         " The exact solution and the region are expressions in the initial "
-        "coordinates r and z, the time t, and pi. Units: SI.",
-      prm,
+        "coordinates r and z, the time t, and pi.",
       Patterns::Anything());
   }
 
