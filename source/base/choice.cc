@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/base/text.h>
 
 #include <cstdlib>
+#include <map>
 #include <regex>
 
 namespace CaissonMPM
 {
-  using dealii::ParameterAcceptor;
   using dealii::Patterns::PatternBase;
 
   namespace
@@ -23,23 +22,54 @@ namespace CaissonMPM
         return {};
       return value;
     }
+
+    /** By the path of the entry. */
+    std::map<std::string, EntryRecord> &
+    all_records()
+    {
+      static std::map<std::string, EntryRecord> records;
+      return records;
+    }
   } // namespace
 
-  void
-  add_entry(ParameterAcceptor                              &owner,
+  EntryRecord &
+  Section::record(const std::string &entry, const std::string &unit)
+  {
+    entries_.push_back(path_of(entry));
+    return all_records()[entries_.back()] = {unit, influence};
+  }
+
+  const EntryRecord *
+  Section::record_of(const std::string &path)
+  {
+    const auto found = all_records().find(path);
+    return found == all_records().end() ? nullptr : &found->second;
+  }
+
+  std::string
+  Section::path_of(const std::string &entry) const
+  {
+    std::string path;
+    for (const std::string &section : get_section_path())
+      path += section + "/";
+    return path + entry;
+  }
+
+  EntryRecord &
+  add_entry(Section                                        &owner,
             const std::string                              &entry,
             const std::string                              &default_value,
+            const std::string                              &unit,
             const std::string                              &text,
             const PatternBase                              &pattern,
             const std::function<void(const std::string &)> &set)
   {
-    auto &prm = ParameterAcceptor::prm;
-    if (auto *const section = dynamic_cast<Section *>(&owner))
-      section->remember(entry);
+    auto &prm = Section::prm;
     owner.enter_my_subsection(prm);
     prm.declare_entry(entry, default_value, pattern, text);
     prm.add_action(entry, set);
     owner.leave_my_subsection(prm);
+    return owner.record(entry, unit);
   }
 
   WordOrNumber::WordOrNumber(const std::string          &word,
@@ -85,24 +115,26 @@ namespace CaissonMPM
     return value == old_value ? std::nullopt : value;
   }
 
-  void
-  add_word_or_number(ParameterAcceptor          &owner,
+  EntryRecord &
+  add_word_or_number(Section                    &owner,
                      const std::string          &entry,
                      std::optional<double>      &value,
                      const std::string          &word,
                      const std::optional<double> old_value,
+                     const std::string          &unit,
                      const std::string          &text,
                      const PatternBase          &number)
   {
     const WordOrNumber pattern(word, old_value, number);
-    add_entry(owner,
-              entry,
-              value ? to_text(*value) : word,
-              text,
-              pattern,
-              [&value, pattern](const std::string &setting) {
-                value = pattern.value_of(setting);
-              });
+    return add_entry(owner,
+                     entry,
+                     value ? to_text(*value) : word,
+                     unit,
+                     text,
+                     pattern,
+                     [&value, pattern](const std::string &setting) {
+                       value = pattern.value_of(setting);
+                     });
   }
 
   std::optional<WordDescription>

@@ -32,31 +32,6 @@ namespace CaissonMPM
       return result + name;
     }
 
-    const std::string unit_mark = "Units: ", no_unit = "none";
-
-    /** The unit that the text of an entry ends with, empty where it has none.
-     */
-    std::string
-    unit_of(const std::string &documentation)
-    {
-      const std::size_t at = documentation.rfind(unit_mark);
-      if (at == std::string::npos)
-        return "";
-      const std::size_t begin = at + unit_mark.size();
-      const std::string unit =
-        documentation.substr(begin, documentation.find('.', begin) - begin);
-      return unit == no_unit ? "" : unit;
-    }
-
-    /** Of an entry without a unit users need no such note. */
-    std::string
-    without_empty_unit(const std::string &documentation)
-    {
-      return documentation.substr(0,
-                                  documentation.rfind(" " + unit_mark +
-                                                      no_unit));
-    }
-
     /** " from 0 to 90" for "0" and "90"; a bound that is none is left out. */
     std::string
     range_in_words(const std::string &lower, const std::string &upper)
@@ -137,7 +112,7 @@ namespace CaissonMPM
       std::string              result;
       std::vector<std::string> open;
       for (const DeclaredEntry &entry : entries.all())
-        if (entry.alias_of.empty() && accept(entry))
+        if (accept(entry))
           {
             result += change_subsection(open, entry.subsections);
             result += describe_entry(entry, std::string(2 * open.size(), ' '));
@@ -173,24 +148,25 @@ namespace CaissonMPM
   {
     for (const auto &[name, node] : tree)
       {
-        const std::string path  = join(above, name);
-        const auto        alias = node.get_optional<std::string>("alias");
-        if (alias || node.count("value") > 0)
+        const std::string path = join(above, name);
+        if (node.count("value") > 0)
           {
             const auto text = [&tree_of_entry = node](const char *key) {
               return tree_of_entry.get<std::string>(key, "");
             };
-            index[path] = entries.size();
-            entries.push_back({above,
-                               name,
-                               path,
-                               text("value"),
-                               text("default_value"),
-                               without_empty_unit(text("documentation")),
-                               unit_of(text("documentation")),
-                               text("pattern_description"),
-                               alias ? join(above, *alias) : "",
-                               text("deprecation_status") == "true"});
+            const EntryRecord &record = *Section::record_of(path);
+            index[path]               = entries.size();
+            entries.push_back(
+              {above,
+               name,
+               path,
+               text("value"),
+               text("default_value"),
+               text("documentation") +
+                 (record.unit.empty() ? "" : " Units: " + record.unit + "."),
+               record.unit,
+               text("pattern_description"),
+               record.influence});
           }
         else
           {
@@ -214,8 +190,7 @@ namespace CaissonMPM
   {
     std::vector<std::string> result;
     for (const DeclaredEntry &entry : entries)
-      if (entry.alias_of.empty())
-        result.push_back(entry.path);
+      result.push_back(entry.path);
     return result;
   }
 

@@ -126,10 +126,6 @@ namespace CaissonMPM
           const std::string &place,
           const bool         is_assumed = false);
 
-      /** The entry itself if the path is another name of it. */
-      const DeclaredEntry &
-      resolve_alias(const DeclaredEntry &entry, const std::string &place);
-
       /** The value, or the word where an old special number stands for it. */
       std::string
       present_value(const DeclaredEntry &entry,
@@ -421,7 +417,7 @@ namespace CaissonMPM
                 const std::string &place,
                 const bool         is_assumed)
     {
-      const DeclaredEntry &entry = resolve_alias(*entries.find(path), place);
+      const DeclaredEntry &entry = *entries.find(path);
       const auto [earlier, is_new] =
         files.back().place_of_entry.insert({entry.path, place});
       if (!is_new)
@@ -438,18 +434,6 @@ namespace CaissonMPM
         is_included || present == entry.default_value,
         is_assumed,
         std::filesystem::path(files.back().name).parent_path().string());
-    }
-
-    const DeclaredEntry &
-    Reader::resolve_alias(const DeclaredEntry &entry, const std::string &place)
-    {
-      if (entry.alias_of.empty())
-        return entry;
-      if (entry.is_deprecated)
-        origins.add_warning(place + ": " + quote(entry.path) +
-                            " is now called " + quote(entry.alias_of) +
-                            "; the old name will be removed.");
-      return *entries.find(entry.alias_of);
     }
 
     std::string

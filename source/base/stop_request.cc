@@ -72,25 +72,28 @@ namespace CaissonMPM
   } // namespace
 
   StopRequest::StopRequest()
-    : ParameterAcceptor("/Run control")
+    : Section("/Run control", Influence::none)
     , start_time(Clock::now())
     , next_look(start_time)
   {
-    add_word_or_number(*this,
-                       "Wall time limit",
-                       wall_time_limit,
-                       "never",
-                       0.,
-                       "The run stops with a checkpoint after this wall time; "
-                       "with never, there is no limit. Units: s.",
-                       dealii::Patterns::Double(0.));
-    add_parameter("Stop file",
-                  stop_file,
-                  "The run stops with a checkpoint when a file of this name "
-                  "appears in the output directory, and removes the file; "
-                  "with an empty name there is no such file. Units: none.",
-                  prm,
-                  dealii::Patterns::Anything());
+    add_word_or_number(
+      *this,
+      "Wall time limit",
+      wall_time_limit,
+      "never",
+      0.,
+      "s",
+      "The run stops with a checkpoint after this wall time; with never, there "
+      "is no limit.",
+      dealii::Patterns::Double(0.));
+    add_parameter(
+      "Stop file",
+      stop_file,
+      "",
+      "The run stops with a checkpoint when a file of this name appears in the "
+      "output directory, and removes the file; with an empty name there is no "
+      "such file.",
+      dealii::Patterns::Anything());
     parse_parameters_call_back.connect([this]() {
       if (wall_time_limit)
         end_of_wall_time = seconds(start_time) + *wall_time_limit;

@@ -12,12 +12,13 @@ namespace CaissonMPM
   void
   BodyShape::add_outer_diameter(double &diameter)
   {
-    add_parameter("Outer diameter",
-                  diameter,
-                  "The outer diameter of a caisson, of a pile, of a cone and "
-                  "its shaft, or of a cylinder at the start. Units: m.",
-                  prm,
-                  Patterns::Double(1e-9));
+    add_parameter(
+      "Outer diameter",
+      diameter,
+      "m",
+      "The outer diameter of a caisson, of a pile, of a cone and its shaft, or "
+      "of a cylinder at the start.",
+      Patterns::Double(1e-9));
   }
 
   void
@@ -26,9 +27,9 @@ namespace CaissonMPM
     add_parameter(
       "Skirt length",
       length,
-      "The length of a caisson's skirt, of a pile, or of a cone "
-      "with its shaft, measured from the lowest point of the tip. Units: m.",
-      prm,
+      "m",
+      "The length of a caisson's skirt, of a pile, or of a cone with its "
+      "shaft, measured from the lowest point of the tip.",
       Patterns::Double(1e-9));
   }
 
@@ -38,10 +39,9 @@ namespace CaissonMPM
     add_parameter(
       "Initial penetration",
       depth,
-      "The depth of the tip's lowest point at the start, to which "
-      "a caisson, cone or pile is wished in place; 0 is on the surface. "
-      "Units: m.",
-      prm,
+      "m",
+      "The depth of the tip's lowest point at the start, to which a caisson, "
+      "cone or pile is wished in place; 0 is on the surface.",
       Patterns::Double(0.));
   }
 
@@ -51,11 +51,10 @@ namespace CaissonMPM
     add_parameter(
       "Cells across the wall",
       n,
+      "",
       "The number of cells across the wall of a caisson, or across the radius "
       "of a cone, pile or cylinder: the width of the cells at the tip is the "
-      "thickness over this number, which must be even for a triangular tip. "
-      "Units: none.",
-      prm,
+      "thickness over this number, which must be even for a triangular tip.",
       Patterns::Integer(1, 64));
   }
 

@@ -21,42 +21,44 @@ namespace CaissonMPM
   }
 
   BodySurface::BodySurface()
-    : ParameterAcceptor("/Rigid body")
+    : Section("/Rigid body")
   {
     add_choice(
       *this,
       "Corner normals",
       splits_corners,
       {{"split", true}, {"both", false}},
+      "",
       "At the nodes where two faces of the body meet, with both, soil may not "
-      "move into either face; with split, the cells at each face have a velocity of their own there, so "
-      "that no soil passes through the body. Units: none.");
+      "move into either face; with split, the cells at each face have a "
+      "velocity of their own there, so that no soil passes through the body.");
     for (unsigned int s = 0; s < n_surfaces; ++s)
       {
         const std::string &name = name_of(static_cast<Surface>(s));
         add_parameter("Friction angle of the " + name,
                       friction_angle[s],
+                      "degrees",
                       "The angle of friction between soil and the body's " +
-                        name + ". Units: degrees.",
-                      prm,
-                      Patterns::Double(0., 89.));
-        add_word_or_number(*this,
-                           "Friction coefficient of the " + name,
-                           coefficient[s],
-                           "by angle",
-                           {},
-                           "The coefficient of friction between soil and the "
-                           "body's " +
-                             name +
-                             ", which is the tangent of the friction angle, "
-                             "instead of that angle. Units: none.",
-                           Patterns::Double(0.));
+                        name + ".",
+                      Patterns::Double(0., 89.))
+          .influence = Influence::motion;
+        add_word_or_number(
+          *this,
+          "Friction coefficient of the " + name,
+          coefficient[s],
+          "by angle",
+          {},
+          "",
+          "The coefficient of friction between soil and the body's " + name +
+            ", which is the tangent of the friction angle, instead of that "
+            "angle.",
+          Patterns::Double(0.));
         add_parameter("Adhesion of the " + name,
                       adhesion[s],
-                      "The adhesion between soil and the body's " + name +
-                        ". Units: Pa.",
-                      prm,
-                      Patterns::Double(0.));
+                      "Pa",
+                      "The adhesion between soil and the body's " + name + ".",
+                      Patterns::Double(0.))
+          .influence = Influence::motion;
       }
   }
 
@@ -86,8 +88,8 @@ namespace CaissonMPM
   }
 
   void
-  BodySurface::name_unused_entries(ParameterOrigins &origins,
-                                   const BodyShape  &shape) const
+  BodySurface::name_unused_surfaces(ParameterOrigins &origins,
+                                    const BodyShape  &shape) const
   {
     for (unsigned int s = 0; s < n_surfaces; ++s)
       if (coefficient[s])

@@ -32,25 +32,26 @@ namespace CaissonMPM
     caisson.add_parameter(
       "Wall steps",
       steps_text,
+      "m : m",
       "Pairs height : thickness, separated by commas and from below, give the "
       "thickness of a caisson's wall above this height over the tip; below the "
-      "first one it is Wall thickness. Units: m : m.",
-      caisson.prm,
+      "first one it is Wall thickness.",
       Patterns::List(Patterns::List(positive, 2, 2, ":"), 0, 20));
-    add_choice(caisson,
-               "Flush face",
-               flush,
-               {{"outer", Flush::outer}, {"inner", Flush::inner}},
-               "The face of a caisson's wall that stays plane at the wall "
-               "steps. Units: none.");
+    add_choice(
+      caisson,
+      "Flush face",
+      flush,
+      {{"outer", Flush::outer}, {"inner", Flush::inner}},
+      "",
+      "The face of a caisson's wall that stays plane at the wall steps.");
     caisson.add_parameter(
       "Rings",
       rings_text,
+      "m : m : m",
       "Triples place : width : height, separated by commas and from below, "
       "give the rings inside the wall of a caisson: the height of the lower "
       "face over the tip, the width towards the axis and the height of the "
-      "ring. Units: m : m : m.",
-      caisson.prm,
+      "ring.",
       Patterns::List(Patterns::List(positive, 3, 3, ":"), 0, 20));
   }
 

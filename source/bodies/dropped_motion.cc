@@ -21,26 +21,29 @@ namespace CaissonMPM
   }                                        // namespace
 
   DroppedMotion::DroppedMotion()
-    : LoadedMotion("/Rigid body")
+    : LoadedMotion(
+        "dropped",
+        "weight and suction accelerate the body, and the soil slows it down")
   {
-    add_word_or_number(*this,
-                       "Inertia",
-                       inertia,
-                       "auto",
-                       -1.,
-                       "The mass of a body that is dropped, with everything "
-                       "that it carries; auto takes that of its own material, "
-                       "without lid and ballast where the mesh has none. Time/"
-                       "Mass scaling does not change it. Units: kg.",
-                       Patterns::Double(1e-9));
-    add_parameter("Release time",
-                  release,
-                  "The weight of a body that is dropped, and the suction, act "
-                  "in full from this time on, and grow linearly until then: "
-                  "from 0, or after an installation from the load that the "
-                  "soil bore at its end. Units: s.",
-                  prm,
-                  Patterns::Double(0.));
+    add_word_or_number(
+      *this,
+      "Inertia",
+      inertia,
+      "auto",
+      -1.,
+      "kg",
+      "The mass of a body that is dropped, with everything that it carries; "
+      "auto takes that of its own material, without lid and ballast where the "
+      "mesh has none. Time/Mass scaling does not change it.",
+      Patterns::Double(1e-9));
+    add_parameter(
+      "Release time",
+      release,
+      "s",
+      "The weight of a body that is dropped, and the suction, act in full from "
+      "this time on, and grow linearly until then: from 0, or after an "
+      "installation from the load that the soil bore at its end.",
+      Patterns::Double(0.));
   }
 
   void

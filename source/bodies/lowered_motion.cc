@@ -19,19 +19,22 @@ namespace CaissonMPM
   }                                       // namespace
 
   LoweredMotion::LoweredMotion()
-    : LoadedMotion("/Rigid body")
+    : LoadedMotion(
+        "lowered",
+        "weight and suction let the body sink until the soil carries it")
   {
     add_parameter("Lowering velocity",
                   largest_velocity,
-                  "The largest velocity of a body that is lowered. Units: m/s.",
-                  prm,
+                  "m/s",
+                  "The largest velocity of a body that is lowered.",
                   Patterns::Double(1e-9));
-    add_parameter("Lowering delay",
-                  delay,
-                  "The velocity of a body that is lowered follows the "
-                  "resistance of the soil with this time constant. Units: s.",
-                  prm,
-                  Patterns::Double(1e-6));
+    add_parameter(
+      "Lowering delay",
+      delay,
+      "s",
+      "The velocity of a body that is lowered follows the resistance of the "
+      "soil with this time constant.",
+      Patterns::Double(1e-6));
   }
 
   void

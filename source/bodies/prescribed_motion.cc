@@ -14,42 +14,42 @@ namespace CaissonMPM
   using namespace dealii;
 
   PrescribedMotion::PrescribedMotion()
-    : BodyMotion("/Rigid body")
+    : BodyMotion("prescribed", "the velocity is a given function of time")
   {
-    add_parameter("Velocity",
-                  constant_velocity,
-                  "The velocity of the body, positive downward and, of a "
-                  "cylinder's radius, outward; Velocity table replaces it. "
-                  "Units: m/s.",
-                  prm,
-                  Patterns::Double());
-    add_parameter("Ramp time",
-                  ramp_time,
-                  "The time in which the velocity changes linearly to "
-                  "Velocity: from 0, or after an installation from the "
-                  "velocity at its end. Units: s.",
-                  prm,
-                  Patterns::Double(0.));
-    add_parameter("Velocity table",
-                  table_text,
-                  "Pairs time : velocity, separated by commas, give a velocity "
-                  "that is linear in between and constant beyond; they replace "
-                  "Velocity and Ramp time. Units: s : m/s.",
-                  prm,
-                  Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
-                                 0,
-                                 10000));
-    add_word_or_number(*this,
-                       "Largest Mach number",
-                       mach_number,
-                       "unlimited",
-                       0.,
-                       "In drained soil, the whole motion is slowed down until "
-                       "the velocity of the body is at most this share of that "
-                       "of compression waves, which Time/Mass scaling makes "
-                       "slow. Other times of the scene stay as they are. "
-                       "Units: none.",
-                       Patterns::Double(1e-6));
+    add_parameter(
+      "Velocity",
+      constant_velocity,
+      "m/s",
+      "The velocity of the body, positive downward and, of a cylinder's "
+      "radius, outward; Velocity table replaces it.",
+      Patterns::Double());
+    add_parameter(
+      "Ramp time",
+      ramp_time,
+      "s",
+      "The time in which the velocity changes linearly to Velocity: from 0, or "
+      "after an installation from the velocity at its end.",
+      Patterns::Double(0.));
+    add_parameter(
+      "Velocity table",
+      table_text,
+      "s : m/s",
+      "Pairs time : velocity, separated by commas, give a velocity that is "
+      "linear in between and constant beyond; they replace Velocity and Ramp "
+      "time.",
+      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
+    add_word_or_number(
+      *this,
+      "Largest Mach number",
+      mach_number,
+      "unlimited",
+      0.,
+      "",
+      "In drained soil, the whole motion is slowed down until the velocity of "
+      "the body is at most this share of that of compression waves, which "
+      "Time/Mass scaling makes slow. Other times of the scene stay as they "
+      "are.",
+      Patterns::Double(1e-6));
     parse_parameters_call_back.connect([this]() { fill_table(); });
   }
 

@@ -26,40 +26,18 @@ namespace CaissonMPM
     class NoShape : public BodyShape
     {
     public:
-      std::string
-      name() const override
-      {
-        return "none";
-      }
-      std::string
-      description() const override
-      {
-        return "no body";
-      }
+      NoShape()
+        : BodyShape("none", "no body")
+      {}
       bool
       exists() const override
       {
         return false;
       }
-      double
-      left() const override
+      BodyPart
+      extent() const override
       {
-        return 0.;
-      }
-      double
-      right() const override
-      {
-        return 0.;
-      }
-      double
-      bottom() const override
-      {
-        return 0.;
-      }
-      double
-      top() const override
-      {
-        return 0.;
+        return {0., 0., 0., 0.};
       }
       bool
       contains(const Point &, const double) const override
@@ -73,18 +51,8 @@ namespace CaissonMPM
     {
     public:
       NoMotion()
-        : BodyMotion("/Rigid body")
+        : BodyMotion("none", "no motion")
       {}
-      std::string
-      name() const override
-      {
-        return "none";
-      }
-      std::string
-      description() const override
-      {
-        return "no motion";
-      }
       std::optional<double>
       time_of_travel(const double) const override
       {
@@ -115,8 +83,8 @@ namespace CaissonMPM
     /** Declare an entry that chooses one of @p objects by its name, from the
      * first one on. */
     template <typename Base>
-    void
-    add_list(ParameterAcceptor                        &owner,
+    EntryRecord &
+    add_list(Section                                  &owner,
              const std::string                        &entry,
              const std::vector<std::unique_ptr<Base>> &objects,
              const std::size_t                         first,
@@ -130,12 +98,12 @@ namespace CaissonMPM
           text += (i == first ? ": " : "; ") + objects[i]->name() + " (" +
                   objects[i]->description() + ")";
         }
-      add_choice(owner, entry, chosen, choices, text + ". Units: none.");
+      return add_choice(owner, entry, chosen, choices, "", text + ".");
     }
   } // namespace
 
   RigidBody::RigidBody()
-    : ParameterAcceptor("/Rigid body")
+    : Section("/Rigid body")
     , shapes(
         one_of_each<BodyShape, NoShape, Caisson, Box, Cone, Pile, Cylinder>())
     , motions(one_of_each<BodyMotion,
@@ -151,31 +119,34 @@ namespace CaissonMPM
              motions,
              1,
              chosen_motion,
-             "The body's motion is one of these");
+             "The body's motion is one of these")
+      .influence = Influence::motion;
     add_parameter("Density",
                   density,
-                  "The density of the body's material. Units: kg/m3.",
-                  prm,
+                  "kg/m3",
+                  "The density of the body's material.",
                   Patterns::Double(1e-9));
-    add_word_or_number(*this,
-                       "Submerged weight",
-                       weight,
-                       "auto",
-                       -1.,
-                       "The weight of the body in water, with everything that "
-                       "it carries; auto takes that of its own material, "
-                       "without lid and ballast where the mesh has none. "
-                       "Units: N.",
-                       Patterns::Double(0.));
+    add_word_or_number(
+      *this,
+      "Submerged weight",
+      weight,
+      "auto",
+      -1.,
+      "N",
+      "The weight of the body in water, with everything that it carries; auto "
+      "takes that of its own material, without lid and ballast where the mesh "
+      "has none.",
+      Patterns::Double(0.))
+      .influence = Influence::motion;
     add_parameter(
       "Force table",
       force_text,
-      "Pairs time : force, separated by commas, give the force that "
-      "acts on a body besides its weight and the suction, positive "
-      "downward; linear in between and constant beyond. Units: s : "
-      "N.",
-      prm,
-      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
+      "s : N",
+      "Pairs time : force, separated by commas, give the force that acts on a "
+      "body besides its weight and the suction, positive downward; linear in "
+      "between and constant beyond.",
+      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000))
+      .influence = Influence::motion;
     parse_parameters_call_back.connect(
       [this]() { force_table = parse_time_table(force_text); });
   }
@@ -232,7 +203,7 @@ namespace CaissonMPM
                            motions,
                            "Rigid body/Motion is " + motion().name());
     shape().name_unused_entries(origins);
-    surface().name_unused_entries(origins, shape());
+    surface().name_unused_surfaces(origins, shape());
     motion().name_unused_entries(origins);
     if (!motion().follows_loads())
       origins.add_unused({"Rigid body/Force table"},

@@ -15,7 +15,7 @@ namespace CaissonMPM
   using namespace dealii;
 
   GridLines::GridLines()
-    : ParameterAcceptor("/Grid")
+    : Section("/Grid")
   {
     declare_domain();
     declare_cells();
@@ -24,26 +24,28 @@ namespace CaissonMPM
     add_parameter(
       "Distortion",
       distortion,
-      "Columns and the heights of nodes are displaced irregularly "
-      "by up to this share of the cell size, except at the sides of "
-      "the domain, the soil surface and the boundaries of layers; "
-      "this tests the method in scenes without a body. Units: "
-      "none.",
-      prm,
+      "",
+      "Columns and the heights of nodes are displaced irregularly by up to "
+      "this share of the cell size, except at the sides of the domain, the "
+      "soil surface and the boundaries of layers; this tests the method in "
+      "scenes without a body.",
       Patterns::Double(0., 0.4));
-    add_parameter("Largest number of cells",
-                  largest_number,
-                  "A mesh with more cells is refused before it is created; a "
-                  "cell takes about 2 kB of memory. Units: none.",
-                  prm,
-                  Patterns::Integer(1));
-    add_parameter("Refinement",
-                  refinement,
-                  "All cell sizes are divided by this number, at every place, "
-                  "for studies of convergence; distances in the mesh stay. "
-                  "Numbers below 1 make the mesh coarser. Units: none.",
-                  prm,
-                  Patterns::Double(1. / 64., 256.));
+    add_parameter(
+      "Largest number of cells",
+      largest_number,
+      "",
+      "A mesh with more cells is refused before it is created; a cell takes "
+      "about 2 kB of memory.",
+      Patterns::Integer(1))
+      .influence = Influence::motion;
+    add_parameter(
+      "Refinement",
+      refinement,
+      "",
+      "All cell sizes are divided by this number, at every place, for studies "
+      "of convergence; distances in the mesh stay. Numbers below 1 make the "
+      "mesh coarser.",
+      Patterns::Double(1. / 64., 256.));
   }
 
   namespace
@@ -59,99 +61,109 @@ namespace CaissonMPM
                          geometry,
                          {{"axisymmetric", Geometry::axisymmetric},
                           {"plane strain", Geometry::plane_strain}},
+                         "",
                          "The scene is axisymmetric about r = 0, or in plane "
-                         "strain. Units: none.");
+                         "strain.");
     add_parameter("Inner radius",
                   inner_radius,
-                  "The domain begins at this r. Units: m.",
-                  prm,
+                  "m",
+                  "The domain begins at this r.",
                   not_negative);
     add_parameter("Outer radius",
                   outer_radius,
-                  "The domain ends at this r. Units: m.",
-                  prm,
+                  "m",
+                  "The domain ends at this r.",
                   positive);
-    add_parameter("Bottom",
-                  bottom,
-                  "The domain begins at this z, below the soil surface at z = "
-                  "0. Units: m.");
-    add_parameter("Top",
-                  top,
-                  "The domain ends at this z at the start, on or above the "
-                  "soil surface at z = 0. Units: m.");
+    add_parameter(
+      "Bottom",
+      bottom,
+      "m",
+      "The domain begins at this z, below the soil surface at z = 0.");
+    add_parameter(
+      "Top",
+      top,
+      "m",
+      "The domain ends at this z at the start, on or above the soil surface at "
+      "z = 0.");
   }
 
   void
   GridLines::declare_cells()
   {
-    add_parameter("Cell width",
-                  cell_width,
-                  "Cells far from the body, and all cells of a scene without a "
-                  "body, have this width. Units: m.",
-                  prm,
-                  positive);
-    add_parameter("Cell height",
-                  cell_height,
-                  "Cells far above and below the tip of the body, and all "
-                  "cells of a scene without a body, have this height. Units: "
-                  "m.",
-                  prm,
-                  positive);
-    add_parameter("Growth ratio",
-                  growth,
-                  "Away from the fine cells the sizes of neighboring cells "
-                  "have this ratio. Units: none.",
-                  prm,
-                  Patterns::Double(1.001, 2.));
-    add_parameter("Fine width",
-                  fine_width,
-                  "Cells up to this distance from the wall, on both sides, are "
-                  "as wide as those of the wall (or of the cone, the pile, the "
-                  "cylinder). Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Fine height",
-                  fine_height,
-                  "Cells up to this distance above and below the tip are as "
-                  "high as those of the wall are wide. Units: m.",
-                  prm,
-                  not_negative);
-    add_word_or_number(*this,
-                       "Fine cell size",
-                       fine_size,
-                       "auto",
-                       0.,
-                       "The finest cells have this width and height; those of "
-                       "a body are narrower if its width is not a multiple of "
-                       "it; auto takes what Rigid body/Cells across the wall "
-                       "gives for a caisson, cone, pile or cylinder, and Cell "
-                       "width and Cell height for a box. Units: m.",
-                       positive);
+    add_parameter(
+      "Cell width",
+      cell_width,
+      "m",
+      "Cells far from the body, and all cells of a scene without a body, have "
+      "this width.",
+      positive);
+    add_parameter(
+      "Cell height",
+      cell_height,
+      "m",
+      "Cells far above and below the tip of the body, and all cells of a scene "
+      "without a body, have this height.",
+      positive);
+    add_parameter(
+      "Growth ratio",
+      growth,
+      "",
+      "Away from the fine cells the sizes of neighboring cells have this "
+      "ratio.",
+      Patterns::Double(1.001, 2.));
+    add_parameter(
+      "Fine width",
+      fine_width,
+      "m",
+      "Cells up to this distance from the wall, on both sides, are as wide as "
+      "those of the wall (or of the cone, the pile, the cylinder).",
+      not_negative);
+    add_parameter(
+      "Fine height",
+      fine_height,
+      "m",
+      "Cells up to this distance above and below the tip are as high as those "
+      "of the wall are wide.",
+      not_negative);
+    add_word_or_number(
+      *this,
+      "Fine cell size",
+      fine_size,
+      "auto",
+      0.,
+      "m",
+      "The finest cells have this width and height; those of a body are "
+      "narrower if its width is not a multiple of it; auto takes what Rigid "
+      "body/Cells across the wall gives for a caisson, cone, pile or cylinder, "
+      "and Cell width and Cell height for a box.",
+      positive);
   }
 
   void
   GridLines::declare_motion()
   {
-    add_parameter("Moving zone below tip",
-                  zone_below_tip,
-                  "The zone that moves with the body reaches this far below "
-                  "its tip. Units: m.",
-                  prm,
-                  not_negative);
+    add_parameter(
+      "Moving zone below tip",
+      zone_below_tip,
+      "m",
+      "The zone that moves with the body reaches this far below its tip.",
+      not_negative);
     add_choice<UpperZone>(*this,
                           "Upper zone",
                           upper_zone,
                           {{"free", UpperZone::free},
                            {"extending", UpperZone::extending}},
+                          "",
                           "The mesh above the body moves with it (free), or "
-                          "stretches up to a fixed top (extending). Units: "
-                          "none.");
-    add_parameter("Smallest row height",
-                  smallest_row,
-                  "Rows of the compressing zone must stay at least this high, "
-                  "and columns around a cylinder this wide. Units: m.",
-                  prm,
-                  positive);
+                          "stretches up to a fixed top (extending).");
+    add_parameter(
+      "Smallest row height",
+      smallest_row,
+      "m",
+      "Rows of the compressing zone must stay at least this high, and columns "
+      "around a cylinder this wide.",
+      positive)
+      .influence = Influence::motion;
   }
 
   void

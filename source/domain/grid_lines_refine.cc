@@ -21,41 +21,41 @@ namespace CaissonMPM
   {
     const Patterns::Integer times(0, 6);
     const Patterns::Double  positive(1e-9);
-    add_parameter("Refinement levels",
-                  levels,
-                  "Cells at the tip are halved in both directions this many "
-                  "times; the lines of the mesh at the body are coarser by as "
-                  "many, so that the smallest cells have the size that Fine "
-                  "cell size says. With 0 the mesh has lines only. Units: "
-                  "none.",
-                  prm,
-                  times);
+    add_parameter(
+      "Refinement levels",
+      levels,
+      "",
+      "Cells at the tip are halved in both directions this many times; the "
+      "lines of the mesh at the body are coarser by as many, so that the "
+      "smallest cells have the size that Fine cell size says. With 0 the mesh "
+      "has lines only.",
+      times);
     add_word_or_number(
       *this,
       "Refined distance",
       refined_distance,
       "auto",
       0.,
-      "Cells up to this distance from the tip are halved "
-      "Refinement levels times, those up to twice this "
-      "distance once less, and so on; auto takes twice the "
-      "thickness of the wall, or twice the radius of a cone or pile. "
-      "Units: m.",
+      "m",
+      "Cells up to this distance from the tip are halved Refinement levels "
+      "times, those up to twice this distance once less, and so on; auto takes "
+      "twice the thickness of the wall, or twice the radius of a cone or pile.",
       positive);
-    add_parameter("Refinement levels along wall",
-                  levels_at_wall,
-                  "Cells along the wall above the tip, up to its thickness "
-                  "away, are halved in both directions this many times, those "
-                  "up to twice this distance once less, and so on. Units: "
-                  "none.",
-                  prm,
-                  times);
-    add_parameter("Refined region",
-                  refined_region,
-                  "Cells are also halved Refinement levels times where this "
-                  "expression in r, z at the start and pi is positive at a "
-                  "corner, in the middle of a side or in the middle of the "
-                  "cell; an empty one adds none. Units: none.");
+    add_parameter(
+      "Refinement levels along wall",
+      levels_at_wall,
+      "",
+      "Cells along the wall above the tip, up to its thickness away, are "
+      "halved in both directions this many times, those up to twice this "
+      "distance once less, and so on.",
+      times);
+    add_parameter(
+      "Refined region",
+      refined_region,
+      "",
+      "Cells are also halved Refinement levels times where this expression in "
+      "r, z at the start and pi is positive at a corner, in the middle of a "
+      "side or in the middle of the cell; an empty one adds none.");
   }
 
   Expression

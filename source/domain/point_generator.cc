@@ -16,29 +16,30 @@ namespace CaissonMPM
   using namespace dealii;
 
   PointGenerator::PointGenerator()
-    : ParameterAcceptor("/Material points")
+    : Section("/Material points")
   {
     declare_numbers();
     declare_region();
-    add_parameter("Random positions",
-                  randomness,
-                  "Material points lie this far from their regular lattice, at "
-                  "random: 0 on it, 1 anywhere in their part of the cell. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Double(0., 1.));
+    add_parameter(
+      "Random positions",
+      randomness,
+      "",
+      "Material points lie this far from their regular lattice, at random: 0 "
+      "on it, 1 anywhere in their part of the cell.",
+      Patterns::Double(0., 1.));
     add_parameter("Random seed",
                   seed,
-                  "Equal seeds give equal random positions. Units: none.",
-                  prm,
+                  "",
+                  "Equal seeds give equal random positions.",
                   Patterns::Integer(0));
-    add_parameter("Split and merge",
-                  adaptive,
-                  "The run begins with the material points that the mesh "
-                  "needs at the start, splits those that move into smaller "
-                  "cells and merges those that move into larger ones; "
-                  "otherwise it begins with all that the smallest cells on "
-                  "the way will need. Units: none.");
+    add_parameter(
+      "Split and merge",
+      adaptive,
+      "",
+      "The run begins with the material points that the mesh needs at the "
+      "start, splits those that move into smaller cells and merges those that "
+      "move into larger ones; otherwise it begins with all that the smallest "
+      "cells on the way will need.");
   }
 
   void
@@ -46,49 +47,53 @@ namespace CaissonMPM
   {
     const Patterns::Integer number(1, 16);
     const Patterns::Double  not_negative(0.);
-    add_parameter("Per direction in path",
-                  per_direction[0],
-                  "Cells in the path of the wall hold this many material "
-                  "points per direction. Units: none.",
-                  prm,
-                  number);
-    add_parameter("Per direction near",
-                  per_direction[1],
-                  "Cells near the wall hold this many material points per "
-                  "direction. Units: none.",
-                  prm,
-                  number);
-    add_parameter("Per direction far",
-                  per_direction[2],
-                  "Cells neither in the path of the wall nor near it hold this "
-                  "many material points per direction. Units: none.",
-                  prm,
-                  number);
-    add_parameter("Largest number of points",
-                  largest_number,
-                  "More material points than this are refused before they are "
-                  "created; a point takes about 220 bytes of memory. Units: "
-                  "none.",
-                  prm,
-                  Patterns::Integer(1));
-    add_parameter("Path margin",
-                  path_margin,
-                  "The path of the wall reaches this far beyond both of its "
-                  "faces. Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Path below final depth",
-                  path_below,
-                  "The path of the wall ends this far below the deepest "
-                  "position of the tip. Units: m.",
-                  prm,
-                  not_negative);
-    add_parameter("Near distance",
-                  near_distance,
-                  "Cells within this distance of the wall's faces count as "
-                  "near the wall. Units: m.",
-                  prm,
-                  not_negative);
+    add_parameter(
+      "Per direction in path",
+      per_direction[0],
+      "",
+      "Cells in the path of the wall hold this many material points per "
+      "direction.",
+      number);
+    add_parameter(
+      "Per direction near",
+      per_direction[1],
+      "",
+      "Cells near the wall hold this many material points per direction.",
+      number);
+    add_parameter(
+      "Per direction far",
+      per_direction[2],
+      "",
+      "Cells neither in the path of the wall nor near it hold this many "
+      "material points per direction.",
+      number);
+    add_parameter(
+      "Largest number of points",
+      largest_number,
+      "",
+      "More material points than this are refused before they are created; a "
+      "point takes about 220 bytes of memory.",
+      Patterns::Integer(1))
+      .influence = Influence::motion;
+    add_parameter(
+      "Path margin",
+      path_margin,
+      "m",
+      "The path of the wall reaches this far beyond both of its faces.",
+      not_negative);
+    add_parameter(
+      "Path below final depth",
+      path_below,
+      "m",
+      "The path of the wall ends this far below the deepest position of the "
+      "tip.",
+      not_negative);
+    add_parameter(
+      "Near distance",
+      near_distance,
+      "m",
+      "Cells within this distance of the wall's faces count as near the wall.",
+      not_negative);
   }
 
   void
@@ -96,23 +101,24 @@ namespace CaissonMPM
   {
     add_parameter("Region left",
                   region_left,
-                  "The soil begins at this r. Units: m.",
-                  prm,
+                  "m",
+                  "The soil begins at this r.",
                   Patterns::Double(0.));
     add_parameter("Region right",
                   region_right,
-                  "The soil ends at this r. Units: m.");
+                  "m",
+                  "The soil ends at this r.");
     add_parameter("Region bottom",
                   region_bottom,
-                  "The soil begins at this z. Units: m.");
-    add_parameter("Region top",
-                  region_top,
-                  "The soil ends at this z. Units: m.");
-    add_parameter("Region",
-                  region,
-                  "Soil is generated only where this expression in r, z and pi "
-                  "is positive; an empty one sets no further limit. Units: "
-                  "none.");
+                  "m",
+                  "The soil begins at this z.");
+    add_parameter("Region top", region_top, "m", "The soil ends at this z.");
+    add_parameter(
+      "Region",
+      region,
+      "",
+      "Soil is generated only where this expression in r, z and pi is "
+      "positive; an empty one sets no further limit.");
   }
 
   Expression

@@ -35,13 +35,6 @@ namespace CaissonMPM
       return false;
     }
 
-    /** The path of an entry of the owner. */
-    std::string
-    path_of(const ParameterAcceptor &owner, const std::string &entry)
-    {
-      return owner.get_section_name().substr(1) + "/" + entry;
-    }
-
     /** Whether a text is more than a number or a word. */
     bool
     is_expression(const std::string &text)
@@ -130,46 +123,51 @@ namespace CaissonMPM
     return std::make_unique<ProfilePattern>(*this);
   }
 
-  void
-  add_profile(ParameterAcceptor &owner,
+  EntryRecord &
+  add_profile(Section           &owner,
               const std::string &entry,
               Profile           &profile,
+              const std::string &unit,
               const std::string &text)
   {
-    const std::string path = path_of(owner, entry);
-    add_entry(owner,
-              entry,
-              to_text(profile.unchecked({})),
-              text,
-              ProfilePattern(profile.number_pattern()),
-              [&profile, path](const std::string &setting) {
-                profile.set(setting, path);
-              });
+    const std::string path = owner.path_of(entry);
+    return add_entry(owner,
+                     entry,
+                     to_text(profile.unchecked({})),
+                     unit,
+                     text,
+                     ProfilePattern(profile.number_pattern()),
+                     [&profile, path](const std::string &setting) {
+                       profile.set(setting, path);
+                     });
   }
 
-  void
-  add_word_or_profile(ParameterAcceptor          &owner,
+  EntryRecord &
+  add_word_or_profile(Section                    &owner,
                       const std::string          &entry,
                       std::unique_ptr<Profile>   &profile,
                       const std::string          &word,
+                      const std::string          &unit,
                       const std::string          &text,
                       const PatternBase          &pattern,
                       const std::optional<double> old_value)
   {
-    const std::string  path = path_of(owner, entry);
+    const std::string  path = owner.path_of(entry);
     const WordOrNumber either(word, old_value, ProfilePattern(pattern));
     const std::shared_ptr<const PatternBase> number = pattern.clone();
-    add_entry(owner,
-              entry,
-              word,
-              text,
-              either,
-              [&profile, path, word, number](const std::string &setting) {
-                profile.reset();
-                if (setting == word || !ProfilePattern(*number).match(setting))
-                  return;
-                profile = std::make_unique<Profile>(0., *number);
-                profile->set(setting, path);
-              });
+    return add_entry(
+      owner,
+      entry,
+      word,
+      unit,
+      text,
+      either,
+      [&profile, path, word, number](const std::string &setting) {
+        profile.reset();
+        if (setting == word || !ProfilePattern(*number).match(setting))
+          return;
+        profile = std::make_unique<Profile>(0., *number);
+        profile->set(setting, path);
+      });
   }
 } // namespace CaissonMPM

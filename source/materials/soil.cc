@@ -16,48 +16,50 @@ namespace CaissonMPM
   using namespace dealii;
 
   Soil::MassScaling::MassScaling()
-    : ParameterAcceptor("/Time")
+    : Section("/Time")
   {
-    add_parameter("Mass scaling",
-                  factor,
-                  "The inertia of the soil, but not its weight, is multiplied "
-                  "by this factor; the time step grows with its square root. "
-                  "Units: none.",
-                  prm,
-                  Patterns::Double(1., 1e6));
+    add_parameter(
+      "Mass scaling",
+      factor,
+      "",
+      "The inertia of the soil, but not its weight, is multiplied by this "
+      "factor; the time step grows with its square root.",
+      Patterns::Double(1., 1e6));
   }
 
   Soil::Soil()
-    : ParameterAcceptor("/Soil")
+    : Section("/Soil")
   {
-    add_parameter("Number of layers",
-                  n_layers_,
-                  "The soil consists of this number of layers; layer k is "
-                  "described in section Layer k. Units: none.",
-                  prm,
-                  Patterns::Integer(1, max_layers));
-    add_parameter("Submerged",
-                  submerged,
-                  "Submerged soil is saturated and below water: its weight is "
-                  "the buoyant one, and its mass contains the water. Units: "
-                  "none.");
+    add_parameter(
+      "Number of layers",
+      n_layers_,
+      "",
+      "The soil consists of this number of layers; layer k is described in "
+      "section Layer k.",
+      Patterns::Integer(1, max_layers));
+    add_parameter(
+      "Submerged",
+      submerged,
+      "",
+      "Submerged soil is saturated and below water: its weight is the buoyant "
+      "one, and its mass contains the water.");
     add_parameter("Fluid density",
                   fluid_density,
-                  "The fluid density is that of the pore water. Units: kg/m3.",
-                  prm,
+                  "kg/m3",
+                  "The fluid density is that of the pore water.",
                   Patterns::Double(0.));
     add_parameter("Gravity",
                   gravity_text,
-                  "The acceleration of gravity has these r and z components. "
-                  "Units: m/s2.",
-                  prm,
+                  "m/s2",
+                  "The acceleration of gravity has these r and z components.",
                   Patterns::List(Patterns::Double(), 2, 2));
     declare_initial_stress();
-    add_parameter("Initial velocity",
-                  velocity_text,
-                  "The velocity at the start is given by two expressions in r, "
-                  "z and pi, for its r and z components, with a semicolon "
-                  "between them. Units: m/s.");
+    add_parameter(
+      "Initial velocity",
+      velocity_text,
+      "m/s",
+      "The velocity at the start is given by two expressions in r, z and pi, "
+      "for its r and z components, with a semicolon between them.");
     parse_parameters_call_back.connect([this]() {
       const auto components = Utilities::split_string_list(gravity_text);
       gravity               = {{Utilities::string_to_double(components[0]),
@@ -72,38 +74,40 @@ namespace CaissonMPM
   void
   Soil::declare_initial_stress()
   {
-    add_choice(*this,
-               "Initial stress",
-               stress_state,
-               {{"K0", InitialStress::k0},
-                {"none", InitialStress::none},
-                {"uniform", InitialStress::uniform},
-                {"expression", InitialStress::expression}},
-               "The stress in the soil at the start: K0 is the geostatic "
-               "effective stress under the soil's own weight and the "
-               "surcharge, none is no stress, uniform takes the entry Uniform "
-               "stress, and expression the entry Stress expression. Units: "
-               "none.");
-    add_parameter("Uniform stress",
-                  uniform_text,
-                  "With Initial stress = uniform, the effective stress is this "
-                  "one everywhere at the start: rr, zz, tt (hoop) and rz, "
-                  "positive in tension. Units: Pa.",
-                  prm,
-                  Patterns::List(Patterns::Double(), 4, 4));
-    add_parameter("Stress expression",
-                  expression_text,
-                  "With Initial stress = expression, the effective stress at "
-                  "the start is given by four expressions in r, z and pi, for "
-                  "rr, zz, tt (hoop) and rz, with semicolons between them. "
-                  "Tension is positive. Units: Pa.");
-    add_parameter("Surcharge",
-                  surcharge,
-                  "A load that acts on the soil surface before the body is "
-                  "installed. The uppermost row of cells carries it as a "
-                  "weight without inertia. Units: Pa.",
-                  prm,
-                  Patterns::Double(0.));
+    add_choice(
+      *this,
+      "Initial stress",
+      stress_state,
+      {{"K0", InitialStress::k0},
+       {"none", InitialStress::none},
+       {"uniform", InitialStress::uniform},
+       {"expression", InitialStress::expression}},
+      "",
+      "The stress in the soil at the start: K0 is the geostatic effective "
+      "stress under the soil's own weight and the surcharge, none is no "
+      "stress, uniform takes the entry Uniform stress, and expression the "
+      "entry Stress expression.");
+    add_parameter(
+      "Uniform stress",
+      uniform_text,
+      "Pa",
+      "With Initial stress = uniform, the effective stress is this one "
+      "everywhere at the start: rr, zz, tt (hoop) and rz, positive in tension.",
+      Patterns::List(Patterns::Double(), 4, 4));
+    add_parameter(
+      "Stress expression",
+      expression_text,
+      "Pa",
+      "With Initial stress = expression, the effective stress at the start is "
+      "given by four expressions in r, z and pi, for rr, zz, tt (hoop) and rz, "
+      "with semicolons between them. Tension is positive.");
+    add_parameter(
+      "Surcharge",
+      surcharge,
+      "Pa",
+      "A load that acts on the soil surface before the body is installed. The "
+      "uppermost row of cells carries it as a weight without inertia.",
+      Patterns::Double(0.));
   }
 
   void

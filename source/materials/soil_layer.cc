@@ -20,23 +20,12 @@ namespace CaissonMPM
   {
     using Kernels::LawDescription;
 
-    /** Call action(law) for all laws. */
-    template <typename Action>
-    void
-    for_each_law(const Action &action)
-    {
-      for (const LawDescription &law : Kernels::law_table.law)
-        if (law.name != nullptr)
-          action(law);
-    }
-
     std::string
     names_of_laws()
     {
       std::string names;
-      for_each_law([&](const LawDescription &law) {
+      for (const LawDescription &law : Kernels::law_table.law)
         names += (names.empty() ? "" : "|") + std::string(law.name);
-      });
       return names;
     }
 
@@ -51,15 +40,30 @@ namespace CaissonMPM
     {
       const auto &laws = Kernels::law_table.law;
       for (int i = 0; i < int(std::size(laws)); ++i)
-        if (laws[i].name != nullptr && name == laws[i].name)
+        if (name == laws[i].name)
           return i;
       AssertThrow(false, ExcInternalError());
       return -1;
     }
+
+    const LawDescription &
+    description(const std::string &law)
+    {
+      return Kernels::law_table.law[law_named(law)];
+    }
+
+    bool
+    has_entry(const std::string &law, const std::string &name)
+    {
+      for (int i = 0; i < description(law).n_entries; ++i)
+        if (name == description(law).entry(i).name)
+          return true;
+      return false;
+    }
   } // namespace
 
   SoilLayer::SoilLayer(const unsigned int index)
-    : ParameterAcceptor("/Soil/Layer " + to_text(index + 1))
+    : Section("/Soil/Layer " + to_text(index + 1))
     , porosity(soil.porosity, Patterns::Double(0., 0.95))
     , solid_density(soil.solid_density, Patterns::Double(1e-12))
     , permeability(soil.permeability, Patterns::Double(1e-20))
@@ -67,28 +71,29 @@ namespace CaissonMPM
     , sensitivity(1., Patterns::Double(1., 1e3))
   {
     soil.layer = index;
-    add_parameter("Top depth",
-                  soil.top_depth,
-                  "The layer's upper boundary has this depth below the soil "
-                  "surface, which must be 0 for layer 1. Units: m.",
-                  prm,
-                  Patterns::Double(0.));
+    add_parameter(
+      "Top depth",
+      soil.top_depth,
+      "m",
+      "The layer's upper boundary has this depth below the soil surface, which "
+      "must be 0 for layer 1.",
+      Patterns::Double(0.));
     // fill_like_layers() reads it
-    add_entry(*this,
-              "Like layer",
-              "none",
-              "The layer takes all entries that it does not set itself, but "
-              "for Top depth, from the layer above of this number. Units: "
-              "none.",
-              WordOrNumber("none", {}, Patterns::Integer(1)),
-              [](const std::string &) {});
+    add_entry(
+      *this,
+      "Like layer",
+      "none",
+      "",
+      "The layer takes all entries that it does not set itself, but for Top "
+      "depth, from the layer above of this number.",
+      WordOrNumber("none", {}, Patterns::Integer(1)),
+      [](const std::string &) {});
     add_parameter("Law",
                   law,
-                  "The constitutive law gives the stress in the layer. Units: "
-                  "none.",
-                  prm,
+                  "",
+                  "The constitutive law gives the stress in the layer.",
                   Patterns::Selection(names_of_laws()));
-    for_each_law([this](const LawDescription &law) {
+    for (const LawDescription &law : Kernels::law_table.law)
       for (int i = 0; i < law.n_entries; ++i)
         {
           const Kernels::Entry &e = law.entry(i);
@@ -97,13 +102,8 @@ namespace CaissonMPM
                                e.value,
                                Patterns::Double(e.smallest, e.largest));
           if (is_new)
-            add_profile(*this,
-                        e.name,
-                        place->second,
-                        std::string(e.text) +
-                          " Units: " + (*e.unit == 0 ? "none" : e.unit) + ".");
+            add_profile(*this, e.name, place->second, e.unit, e.text);
         }
-    });
     declare_density();
     declare_earth_pressure();
     declare_permeability();
@@ -113,9 +113,10 @@ namespace CaissonMPM
       soil.stress_measure,
       {{"Cauchy", Kernels::StressMeasure::cauchy},
        {"Kirchhoff", Kernels::StressMeasure::kirchhoff}},
+      "",
       "The elastic law is formulated in this stress: with Kirchhoff, it is "
       "Hencky's law for the logarithmic strain since the start. Strength is "
-      "always that of the Cauchy stress. Units: none.");
+      "always that of the Cauchy stress.");
     declare_internal_length();
     declare_user_material();
     declare_walls();
@@ -124,67 +125,76 @@ namespace CaissonMPM
   void
   SoilLayer::declare_walls()
   {
-    add_word_or_profile(*this,
-                        "Friction angle of the walls",
-                        wall_friction_angle,
-                        "of the body",
-                        "The angle of friction between the layer and the "
-                        "inner and outer wall of the body, instead of the "
-                        "body's own. Units: degrees.",
-                        Patterns::Double(0., 89.));
+    add_word_or_profile(
+      *this,
+      "Friction angle of the walls",
+      wall_friction_angle,
+      "of the body",
+      "degrees",
+      "The angle of friction between the layer and the inner and outer wall of "
+      "the body, instead of the body's own.",
+      Patterns::Double(0., 89.));
     add_word_or_profile(
       *this,
       "Adhesion factor of the walls",
       adhesion_factor,
       "of the body",
-      "The adhesion between the layer and the inner and outer wall of the "
-      "body is this factor alpha times Cohesion (of NGI-ADP: the strength in "
-      "direct simple shear) over Sensitivity, instead of the body's own. "
-      "Units: none.",
+      "",
+      "The adhesion between the layer and the inner and outer wall of the body "
+      "is this factor alpha times Cohesion (of NGI-ADP: the strength in direct "
+      "simple shear) over Sensitivity, instead of the body's own.",
       Patterns::Double(0., 10.));
-    add_profile(*this,
-                "Sensitivity",
-                sensitivity,
-                "The strength of clay over that of the same clay after it has "
-                "been remoulded, as at the walls. Units: none.");
+    add_profile(
+      *this,
+      "Sensitivity",
+      sensitivity,
+      "",
+      "The strength of clay over that of the same clay after it has been "
+      "remoulded, as at the walls.");
   }
 
   void
   SoilLayer::declare_density()
   {
-    add_profile(*this,
-                "Porosity",
-                porosity,
-                "The porosity is the share of the pores in the volume of the "
-                "soil at the start. Units: none.");
+    add_profile(
+      *this,
+      "Porosity",
+      porosity,
+      "",
+      "The porosity is the share of the pores in the volume of the soil at the "
+      "start.");
     add_profile(*this,
                 "Solid density",
                 solid_density,
-                "The solid density is that of the grains, without pores. "
-                "Units: kg/m3.");
+                "kg/m3",
+                "The solid density is that of the grains, without pores.");
     add_word_or_profile(
       *this,
       "Relative density",
       relative_density,
       "by porosity",
+      "",
       "The relative density D gives the void ratio at the start as e_max - D "
-      "(e_max - e_min), instead of Porosity. Units: none.",
+      "(e_max - e_min), instead of Porosity.",
       Patterns::Double(-0.2, 1.3));
-    add_word_or_profile(*this,
-                        "Void ratio",
-                        void_ratio,
-                        "by porosity",
-                        "The void ratio e at the start gives the porosity as e "
-                        "/ (1 + e), instead of Porosity. Units: none.",
-                        Patterns::Double(0., 19.));
-    add_word_or_profile(*this,
-                        "Dry density",
-                        dry_density,
-                        "by solids",
-                        "The dry density at the start is the mass of the "
-                        "grains over the volume of the soil, instead of Solid "
-                        "density. Units: kg/m3.",
-                        Patterns::Double(1e-12));
+    add_word_or_profile(
+      *this,
+      "Void ratio",
+      void_ratio,
+      "by porosity",
+      "",
+      "The void ratio e at the start gives the porosity as e / (1 + e), "
+      "instead of Porosity.",
+      Patterns::Double(0., 19.));
+    add_word_or_profile(
+      *this,
+      "Dry density",
+      dry_density,
+      "by solids",
+      "kg/m3",
+      "The dry density at the start is the mass of the grains over the volume "
+      "of the soil, instead of Solid density.",
+      Patterns::Double(1e-12));
   }
 
   void
@@ -195,18 +205,21 @@ namespace CaissonMPM
       "K0",
       k0,
       "auto",
-      "K0 is the ratio of the horizontal to the vertical "
-      "effective stress at the start; auto takes the value of "
-      "the layer's law: 1 - sin(phi), which is 1 where the friction "
-      "angle is 0, or nu / (1 - nu) for a linear elastic law. Units: none.",
+      "",
+      "K0 is the ratio of the horizontal to the vertical effective stress at "
+      "the start; auto takes the value of the layer's law: 1 - sin(phi), which "
+      "is 1 where the friction angle is 0, or nu / (1 - nu) for a linear "
+      "elastic law.",
       Patterns::Double(0., 10.),
       -1.);
-    add_profile(*this,
-                "Overconsolidation ratio",
-                overconsolidation,
-                "With K0 = auto, K0 is multiplied by this ratio to the power "
-                "sin(phi) (Mayne and Kulhawy 1982). Where the friction angle "
-                "is 0, set K0 itself. Units: none.");
+    add_profile(
+      *this,
+      "Overconsolidation ratio",
+      overconsolidation,
+      "",
+      "With K0 = auto, K0 is multiplied by this ratio to the power sin(phi) "
+      "(Mayne and Kulhawy 1982). Where the friction angle is 0, set K0 "
+      "itself.");
   }
 
   void
@@ -215,19 +228,23 @@ namespace CaissonMPM
     add_profile(*this,
                 "Permeability",
                 permeability,
-                "The permeability to water in the vertical, where water "
-                "flows (Water/Level). Units: m/s.");
+                "m/s",
+                "The permeability to water in the vertical, where water flows "
+                "(Water/Level).")
+      .influence = Influence::motion;
     add_parameter("Permeability ratio",
                   soil.anisotropy,
-                  "The horizontal permeability over the vertical one. Units: "
-                  "none.",
-                  prm,
-                  Patterns::Double(1e-6, 1e6));
-    add_parameter("Permeability by void ratio",
-                  soil.loosening_conducts,
-                  "The permeability follows the void ratio e as e3/(1 + e) "
-                  "(Kozeny-Carman); Permeability is that of the porosity at "
-                  "the start. Units: none.");
+                  "",
+                  "The horizontal permeability over the vertical one.",
+                  Patterns::Double(1e-6, 1e6))
+      .influence = Influence::motion;
+    add_parameter(
+      "Permeability by void ratio",
+      soil.loosening_conducts,
+      "",
+      "The permeability follows the void ratio e as e3/(1 + e) "
+      "(Kozeny-Carman); Permeability is that of the porosity at the start.")
+      .influence = Influence::motion;
   }
 
   void
@@ -236,46 +253,32 @@ namespace CaissonMPM
     add_parameter(
       "Internal length",
       soil.internal_length,
-      "The strength of soil that shears grows by the share l g / v, "
-      "where l is this length, g the rate of shear and v the "
-      "internal velocity, so that a shear band is some of these "
-      "lengths wide; 0 leaves its width to the mesh. Units: m.",
-      prm,
+      "m",
+      "The strength of soil that shears grows by the share l g / v, where l is "
+      "this length, g the rate of shear and v the internal velocity, so that a "
+      "shear band is some of these lengths wide; 0 leaves its width to the "
+      "mesh.",
       Patterns::Double(0.));
-    add_parameter("Internal velocity",
-                  soil.internal_velocity,
-                  "The internal length is that of shear bands whose sides pass "
-                  "each other at this velocity, which should be that of the "
-                  "body. Units: m/s.",
-                  prm,
-                  Patterns::Double(1e-12));
+    add_parameter(
+      "Internal velocity",
+      soil.internal_velocity,
+      "m/s",
+      "The internal length is that of shear bands whose sides pass each other "
+      "at this velocity, which should be that of the body.",
+      Patterns::Double(1e-12));
   }
 
   void
   SoilLayer::name_unused_entries(ParameterOrigins &origins) const
   {
-    const LawDescription &description = Kernels::law_table.law[law_named(law)];
     std::vector<std::string> unused;
-    for (const auto &entry : values)
-      {
-        bool is_used = relative_density && (entry.first == minimum_void_ratio ||
-                                            entry.first == maximum_void_ratio);
-        for (int i = 0; i < description.n_entries; ++i)
-          is_used = is_used || entry.first == description.entry(i).name;
-        if (!is_used)
-          unused.push_back(section() + "/" + entry.first);
-      }
-    if (law != Kernels::UserMaterial::name)
-      for (const char *const name : {"Library",
-                                     "Routine",
-                                     "Material name",
-                                     "Stress components",
-                                     "Unit of stress",
-                                     "Properties",
-                                     "State variables",
-                                     "State at the start",
-                                     "Volume in shear"})
+    for (const auto &[name, value] : values)
+      if (!has_entry(law, name) &&
+          !(relative_density &&
+            (name == minimum_void_ratio || name == maximum_void_ratio)))
         unused.push_back(section() + "/" + name);
+    if (law != Kernels::UserMaterial::name)
+      unused.insert(unused.end(), user_entries.begin(), user_entries.end());
     origins.add_unused(unused, section() + "/Law is " + law);
     if (soil.internal_length == 0.)
       origins.add_unused({section() + "/Internal velocity"},
@@ -305,16 +308,12 @@ namespace CaissonMPM
   bool
   SoilLayer::has_friction() const
   {
-    const LawDescription &description = Kernels::law_table.law[law_named(law)];
-    for (int i = 0; i < description.n_entries; ++i)
-      for (const char *const name :
-           {Kernels::Entries::friction_angle.name,
-            Kernels::Entries::critical_friction_angle.name})
-        if (name == std::string(description.entry(i).name))
-          {
-            const Profile &angle = values.at(name);
-            return !angle.is_constant() || angle.unchecked({}) > 0.;
-          }
+    for (const char *const name :
+         {Kernels::Entries::friction_angle.name,
+          Kernels::Entries::critical_friction_angle.name})
+      if (has_entry(law, name))
+        return !values.at(name).is_constant() ||
+               values.at(name).unchecked({}) > 0.;
     return false;
   }
 
@@ -342,9 +341,8 @@ namespace CaissonMPM
         result.push_back(adhesion_factor.get());
         result.push_back(&sensitivity);
       }
-    const LawDescription &description = Kernels::law_table.law[law_named(law)];
-    for (int i = 0; i < description.n_entries; ++i)
-      result.push_back(&values.at(description.entry(i).name));
+    for (int i = 0; i < description(law).n_entries; ++i)
+      result.push_back(&values.at(description(law).entry(i).name));
     return result;
   }
 

@@ -21,81 +21,87 @@ namespace CaissonMPM
   {
     /** The entries that say how the UMAT wants to be called. */
     void
-    declare_kind_of_umat(ParameterAcceptor &owner, UmatSettings &umat)
+    declare_kind_of_umat(Section &owner, UmatSettings &umat)
     {
       owner.add_parameter(
         "Routine",
         umat.routine,
-        "The name of the UMAT in its library; MODULE::NAME is a "
-        "routine in a module of gfortran. Units: none.",
-        ParameterAcceptor::prm,
+        "",
+        "The name of the UMAT in its library; MODULE::NAME is a routine in a "
+        "module of gfortran.",
         Patterns::Anything());
       owner.add_parameter(
         "Material name",
         umat.name,
-        "A user material gets this name as CMNAME, in capitals; "
-        "without it that of its section, as SOIL-LAYER-1. Units: "
-        "none.",
-        ParameterAcceptor::prm,
+        "",
+        "A user material gets this name as CMNAME, in capitals; without it "
+        "that of its section, as SOIL-LAYER-1.",
         Patterns::Anything());
       add_choice(
         owner,
         "Stress components",
         umat.n_components,
         {{"4", 4U}, {"6", 6U}},
-        "A user material works on so many components (NTENS): 4 are "
-        "11, 22, 33, 12, and 6 also 13, 23, which are 0, for a UMAT of "
-        "three dimensions. Units: none.");
-      add_choice(owner,
-                 "Unit of stress",
-                 umat.unit,
-                 {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}},
-                 "A user material computes STRESS and DDSDDE in this unit. The "
-                 "program converts these two only, and not the Properties. "
-                 "Units: none.");
+        "",
+        "A user material works on so many components (NTENS): 4 are 11, 22, "
+        "33, 12, and 6 also 13, 23, which are 0, for a UMAT of three "
+        "dimensions.");
+      add_choice(
+        owner,
+        "Unit of stress",
+        umat.unit,
+        {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}},
+        "",
+        "A user material computes STRESS and DDSDDE in this unit. The program "
+        "converts these two only, and not the Properties.");
     }
   } // namespace
 
   void
   SoilLayer::declare_user_material()
   {
+    const std::size_t n_before = entries().size();
     add_parameter(
       "Library",
       umat_settings.library,
-      "The shared library of a user material, a UMAT of Abaqus, has "
-      "this path, relative to the file that sets this entry (with --set, to "
-      "the scene's file). Units: none.");
+      "",
+      "The shared library of a user material, a UMAT of Abaqus, has this path, "
+      "relative to the file that sets this entry (with --set, to the scene's "
+      "file).");
     declare_kind_of_umat(*this, umat_settings);
-    add_entry(*this,
-              "Properties",
-              "",
-              "The user material gets these numbers as PROPS, with commas "
-              "between them; none gives it no number. Units: those of the "
-              "library.",
-              Patterns::Anything(),
-              [this](const std::string &text) { properties_text = text; });
+    add_entry(
+      *this,
+      "Properties",
+      "",
+      "those of the library",
+      "The user material gets these numbers as PROPS, with commas between "
+      "them; none gives it no number.",
+      Patterns::Anything(),
+      [this](const std::string &text) { properties_text = text; });
     add_parameter("State variables",
                   umat_settings.n_variables,
-                  "A user material keeps so many numbers STATEV of each "
-                  "point. Units: none.",
-                  prm,
+                  "",
+                  "A user material keeps so many numbers STATEV of each point.",
                   Patterns::Integer(0, 1000));
-    add_parameter("State at the start",
-                  umat_settings.variables,
-                  "The first STATEV have these values at the start, and the "
-                  "others 0; a subroutine SDVINI in the library may change "
-                  "them for each point. Units: those of the library.",
-                  prm,
-                  Patterns::List(Patterns::Double(), 0, 1000));
-    add_choice(*this,
-               "Volume in shear",
-               soil.volume_in_shear,
-               {{"by state", Kernels::VolumeInShear::by_state},
-                {"kept", Kernels::VolumeInShear::kept},
-                {"gained", Kernels::VolumeInShear::gained}},
-               "Plastic shear of a user material changes the volume as the "
-               "state says, not at all, or only makes it larger: this decides "
-               "how a cell takes the pressure of its points. Units: none.");
+    add_parameter(
+      "State at the start",
+      umat_settings.variables,
+      "those of the library",
+      "The first STATEV have these values at the start, and the others 0; a "
+      "subroutine SDVINI in the library may change them for each point.",
+      Patterns::List(Patterns::Double(), 0, 1000));
+    add_choice(
+      *this,
+      "Volume in shear",
+      soil.volume_in_shear,
+      {{"by state", Kernels::VolumeInShear::by_state},
+       {"kept", Kernels::VolumeInShear::kept},
+       {"gained", Kernels::VolumeInShear::gained}},
+      "",
+      "Plastic shear of a user material changes the volume as the state says, "
+      "not at all, or only makes it larger: this decides how a cell takes the "
+      "pressure of its points.");
+    user_entries.assign(entries().begin() + n_before, entries().end());
   }
 
   void

@@ -9,16 +9,16 @@ namespace CaissonMPM
   using namespace dealii;
 
   BodyForce::BodyForce()
-    : ParameterAcceptor("/Loads")
+    : Section("/Loads", Influence::motion)
   {
     add_parameter(
       "Body force",
       text,
+      "m/s2",
       "Acceleration of the soil besides gravity: two expressions in the "
       "initial coordinates r and z of a point, the time t and pi give its r "
       "and z components, with a semicolon between them. It acts on the mass of "
-      "grains and water, and mass scaling leaves the force as it is. Units: "
-      "m/s2.");
+      "grains and water, and mass scaling leaves the force as it is.");
   }
 
   std::string

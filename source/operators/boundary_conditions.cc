@@ -12,18 +12,19 @@ namespace CaissonMPM
   using namespace dealii;
 
   BoundaryConditions::BoundaryConditions()
-    : ParameterAcceptor("/Boundary conditions")
+    : Section("/Boundary conditions")
   {
     const Choices<SideCondition> kinds = {{"roller", SideCondition::roller},
                                           {"fixed", SideCondition::fixed},
                                           {"free", SideCondition::free}};
     const std::string            text =
       ": roller sets its normal velocity to zero, fixed sets both components "
-      "to zero, and free imposes nothing. Units: none.";
+      "to zero, and free imposes nothing.";
     add_choice(*this,
                "Axis",
                sides[0],
                kinds,
+               "",
                "Condition on the side of the smallest r, which is the axis if "
                "that r is 0" +
                  text);
@@ -31,24 +32,31 @@ namespace CaissonMPM
                "Side",
                sides[1],
                kinds,
+               "",
                "Condition on the side of the largest r" + text);
+    add_choice(*this,
+               "Bottom",
+               sides[2],
+               kinds,
+               "",
+               "Condition on the lower side" + text);
     add_choice(
-      *this, "Bottom", sides[2], kinds, "Condition on the lower side" + text);
-    add_choice(
-      *this, "Top", sides[3], kinds, "Condition on the upper side" + text);
+      *this, "Top", sides[3], kinds, "", "Condition on the upper side" + text);
     add_parameter(
       "Prescribed region",
       region_text,
+      "",
       "The velocity is prescribed at nodes where this expression in the "
       "current position r and z of a node, the time t and pi is positive; if "
-      "it is empty, no velocity is prescribed. Units: none.");
+      "it is empty, no velocity is prescribed.");
     add_parameter(
       "Prescribed velocity",
       velocity_text,
+      "m/s",
       "Velocity of the nodes in the prescribed region: two expressions in the "
       "same variables for its r and z components, with a semicolon between "
       "them; a component that reads free is not prescribed. It takes "
-      "precedence over the sides and the contact. Units: m/s.");
+      "precedence over the sides and the contact.");
   }
 
   void

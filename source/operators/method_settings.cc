@@ -25,7 +25,7 @@ namespace CaissonMPM
   } // namespace
 
   MethodSettings::MethodSettings()
-    : ParameterAcceptor("/Method")
+    : Section("/Method")
   {
     declare_transfer();
     declare_integration();
@@ -37,8 +37,8 @@ namespace CaissonMPM
   {
     add_parameter("XPIC order",
                   xpic_order,
-                  "XPIC has this order; order 1 is PIC. Units: none.",
-                  prm,
+                  "",
+                  "XPIC has this order; order 1 is PIC.",
                   Patterns::Integer(1, 10));
     add_word_or_number(
       *this,
@@ -46,25 +46,23 @@ namespace CaissonMPM
       flip_fraction,
       "auto",
       {},
-      "Points take this share of their velocity from FLIP in "
-      "a step with a Courant number of 0.8, and the rest from "
-      "XPIC; in shorter steps the share of XPIC is smaller, in "
-      "proportion. 1 is FLIP, and 0 is XPIC. "
-      "With auto it is 0.99 where all layers are "
-      "Mohr-Coulomb soil, the water is neither undrained nor "
-      "coupled, and no loads move the body. "
-      "Elsewhere it is 0.95. "
-      "Units: none.",
+      "",
+      "Points take this share of their velocity from FLIP in a step with a "
+      "Courant number of 0.8, and the rest from XPIC; in shorter steps the "
+      "share of XPIC is smaller, in proportion. 1 is FLIP, and 0 is XPIC. With "
+      "auto it is 0.99 where all layers are Mohr-Coulomb soil, the water is "
+      "neither undrained nor coupled, and no loads move the body. Elsewhere it "
+      "is 0.95.",
       Patterns::Double(0., 1.));
     add_choice(
       *this,
       "Stress update",
       stress_update,
       stress_updates,
-      "MUSL strains the points with the velocities that the updated "
-      "points bring back to the nodes, and USL with the new nodal "
-      "velocities; auto is USL with an inertia tolerance, and else MUSL. "
-      "Units: none.");
+      "",
+      "MUSL strains the points with the velocities that the updated points "
+      "bring back to the nodes, and USL with the new nodal velocities; auto is "
+      "USL with an inertia tolerance, and else MUSL.");
   }
 
   void
@@ -73,67 +71,73 @@ namespace CaissonMPM
     add_parameter(
       "Full cell fraction",
       full_fraction,
-      "The internal force of a cell at a free surface is integrated "
-      "at Gauss points only if its material points fill this share "
-      "of its volume; with 0.05 less, it is integrated at these "
-      "points only. 2 is at material points everywhere. Units: "
-      "none.",
-      prm,
+      "",
+      "The internal force of a cell at a free surface is integrated at Gauss "
+      "points only if its material points fill this share of its volume; with "
+      "0.05 less, it is integrated at these points only. 2 is at material "
+      "points everywhere.",
       Patterns::Double(0.1, never_full));
-    add_parameter("Full cell fraction inside",
-                  full_fraction_inside,
-                  "A cell inside the soil, with filled cells around it, takes "
-                  "Gauss points only if its points fill this share of its "
-                  "volume. Units: none.",
-                  prm,
-                  Patterns::Double(0.1, never_full));
+    add_parameter(
+      "Full cell fraction inside",
+      full_fraction_inside,
+      "",
+      "A cell inside the soil, with filled cells around it, takes Gauss points "
+      "only if its points fill this share of its volume.",
+      Patterns::Double(0.1, never_full));
     add_choice(
       *this,
       "Pressure in full cells",
       pressure_fit,
       pressure_fits,
+      "",
       "The mean stress of the points of a full cell is fitted by an affine "
       "function, as the deviator always is, or by its mean; auto changes to "
-      "the mean where soil that gains volume in shear has dilated by 0.5 to "
-      "2 %. "
-      "Units: none.");
-    add_parameter("Mean volume change",
-                  mean_volume,
-                  "The points of a cell are strained with its mean volume "
-                  "change (B-bar), which prevents locking. Units: none.");
-    add_parameter("Stress filter",
-                  stress_filter,
-                  "In full cells a step with a Courant number of 0.8 removes "
-                  "this share of the misfit between the stress of a point and "
-                  "the affine fit of its cell, which changes no nodal force; "
-                  "shorter steps remove less, in proportion. Units: none.",
-                  prm,
-                  Patterns::Double(0., 1.));
+      "the mean where soil that gains volume in shear has dilated by 0.5 to 2 "
+      "%.");
+    add_parameter(
+      "Mean volume change",
+      mean_volume,
+      "",
+      "The points of a cell are strained with its mean volume change (B-bar), "
+      "which prevents locking.");
+    add_parameter(
+      "Stress filter",
+      stress_filter,
+      "",
+      "In full cells a step with a Courant number of 0.8 removes this share of "
+      "the misfit between the stress of a point and the affine fit of its "
+      "cell, which changes no nodal force; shorter steps remove less, in "
+      "proportion.",
+      Patterns::Double(0., 1.));
   }
 
   void
   MethodSettings::declare_stability()
   {
-    add_parameter("Mass floor",
-                  minimum_nodal_mass,
-                  "Nodes below the minimum nodal mass that the time step "
-                  "needs respond as if they had it, and their neighbors take "
-                  "the rest of the impulse. Units: none.");
-    add_parameter("Local damping",
-                  damping,
-                  "This share of the out-of-balance force of a node acts "
-                  "against its velocity, except at the body. Units: none.",
-                  prm,
-                  Patterns::Double(0., 0.95));
+    add_parameter(
+      "Mass floor",
+      minimum_nodal_mass,
+      "",
+      "Nodes below the minimum nodal mass that the time step needs respond as "
+      "if they had it, and their neighbors take the rest of the impulse.");
+    add_parameter(
+      "Local damping",
+      damping,
+      "",
+      "This share of the out-of-balance force of a node acts against its "
+      "velocity, except at the body.",
+      Patterns::Double(0., 0.95))
+      .influence = Influence::motion;
     add_word_or_number(
       *this,
       "Limiter factor",
       limiter_factor,
       "none",
       {},
-      "The velocity of points in cells next to the body is limited to k H / dt, "
-      "with this factor k, the shortest side H of the cell and the step dt at a "
-      "Courant number of 0.8; none does not limit it. Units: none.",
+      "",
+      "The velocity of points in cells next to the body is limited to k H / "
+      "dt, with this factor k, the shortest side H of the cell and the step dt "
+      "at a Courant number of 0.8; none does not limit it.",
       Patterns::Double(0.01, 1.));
   }
 

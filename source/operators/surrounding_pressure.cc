@@ -9,12 +9,14 @@ namespace CaissonMPM
   using namespace dealii;
 
   SurroundingPressure::SurroundingPressure()
-    : ParameterAcceptor("/Loads")
+    : Section("/Loads", Influence::motion)
   {
-    add_parameter("Surrounding pressure",
-                  text,
-                  "Pressure on all free surfaces of the soil, positive in "
-                  "compression, as an expression in the time t. Units: Pa.");
+    add_parameter(
+      "Surrounding pressure",
+      text,
+      "Pa",
+      "Pressure on all free surfaces of the soil, positive in compression, as "
+      "an expression in the time t.");
   }
 
   std::string

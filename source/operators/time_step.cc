@@ -18,39 +18,43 @@ namespace CaissonMPM
   using namespace dealii;
 
   TimeStep::TimeStep()
-    : ParameterAcceptor("/Time")
+    : Section("/Time")
   {
-    add_parameter("Courant number",
-                  courant,
-                  "The time step is this fraction of the stability limit of "
-                  "linear cells. Units: none.",
-                  prm,
-                  Patterns::Double(1e-6, 1.));
-    add_word_or_number(*this,
-                       "Time step",
-                       fixed_step,
-                       "auto",
-                       0.,
-                       "The time step has this length; with auto it follows "
-                       "from the Courant number. Units: s.",
-                       Patterns::Double(0.));
+    add_parameter(
+      "Courant number",
+      courant,
+      "",
+      "The time step is this fraction of the stability limit of linear cells.",
+      Patterns::Double(1e-6, 1.))
+      .influence = Influence::motion;
+    add_word_or_number(
+      *this,
+      "Time step",
+      fixed_step,
+      "auto",
+      0.,
+      "s",
+      "The time step has this length; with auto it follows from the Courant "
+      "number.",
+      Patterns::Double(0.))
+      .influence = Influence::motion;
     add_word_or_number(
       *this,
       "Inertia tolerance",
       tolerance,
       "none",
       0.,
-      "The inertia of the smallest cells, mass scaling times "
-      "density times the square of the velocity of the body, "
-      "is this share of the initial vertical effective stress "
-      "at the tip or, if no soil has friction, of half the least strength "
-      "from there to four wall thicknesses above, "
-      "0.4 to 1.6 as a rule. The scaling follows the "
-      "penetration. Larger cells get less of it, and cells that the tip "
-      "bends get more. The scaled inertia resists the deformation of cells, "
-      "and hardly their translation. Mass scaling must then be 1. "
-      "Units: none.",
-      Patterns::Double(1e-6, 10.));
+      "",
+      "The inertia of the smallest cells, mass scaling times density times the "
+      "square of the velocity of the body, is this share of the initial "
+      "vertical effective stress at the tip or, if no soil has friction, of "
+      "half the least strength from there to four wall thicknesses above, 0.4 "
+      "to 1.6 as a rule. The scaling follows the penetration. Larger cells get "
+      "less of it, and cells that the tip bends get more. The scaled inertia "
+      "resists the deformation of cells, and hardly their translation. Mass "
+      "scaling must then be 1.",
+      Patterns::Double(1e-6, 10.))
+      .influence = Influence::motion;
   }
 
   void

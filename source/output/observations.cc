@@ -277,22 +277,22 @@ namespace CaissonMPM
   } // namespace
 
   Observations::Observations()
-    : ParameterAcceptor("/Verification")
+    : Section("/Verification", Influence::none)
   {
     add_parameter(
       "Observations",
       entry,
+      "SI",
       "The observations, separated by semicolons, are numbers that are read "
       "from the material points at every record and written to "
       "observations.csv. Each is written as name = kind quantity. The kinds "
       "are: point quantity at R Z (of the point whose initial position is the "
       "nearest); mean, rms, min, max quantity (over the volume); quantile F "
       "quantity (not exceeded by the share F of the mass); projection quantity "
-      "on SHAPE (sum m q f / sum m f^2). All kinds but point may end with where "
-      "REGION. Shape and region are expressions in the initial coordinates r "
-      "and z, the time t, and pi; a point belongs to the region where the "
-      "expression is not 0. The entry Checks names the quantities. Units: SI.",
-      prm,
+      "on SHAPE (sum m q f / sum m f^2). All kinds but point may end with "
+      "where REGION. Shape and region are expressions in the initial "
+      "coordinates r and z, the time t, and pi; a point belongs to the region "
+      "where the expression is not 0. The entry Checks names the quantities.",
       Patterns::Anything());
   }
 

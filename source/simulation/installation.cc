@@ -22,15 +22,16 @@ namespace CaissonMPM
   } // namespace
 
   Installation::Installation()
-    : ParameterAcceptor("/Installation")
+    : Section("/Installation", Influence::motion)
   {
-    add_parameter("Directory",
-                  directory_,
-                  "The run begins with the ground, the body and the water in "
-                  "the last checkpoint of another run, which has this output "
-                  "directory. Its motion may be another one; time and sums "
-                  "begin at 0. With an empty one, the run begins with soil in "
-                  "its initial stress. Units: none.");
+    add_parameter(
+      "Directory",
+      directory_,
+      "",
+      "The run begins with the ground, the body and the water in the last "
+      "checkpoint of another run, which has this output directory. Its motion "
+      "may be another one; time and sums begin at 0. With an empty one, the "
+      "run begins with soil in its initial stress.");
   }
 
   void
@@ -59,7 +60,8 @@ namespace CaissonMPM
     std::string lines;
     for (const ChangedEntry &entry : changes)
       {
-        if (!may_change_after_installation(entry.path))
+        const EntryRecord *const about = record_of(entry.path);
+        if (about == nullptr || about->influence != Influence::motion)
           lines += line_of(entry);
         if (entry.path == "Water/Level" &&
             (entry.now == "undrained" ||
@@ -68,8 +70,8 @@ namespace CaissonMPM
             "Water/Level was " + entry.before + " in the installation and is " +
             entry.now +
             ": the pressure of undrained soil follows from all of its volume "
-            "change, and is no pressure at the nodes. Set Level = coupled and a "
-            "low permeability of the layers in both runs.");
+            "change, and is no pressure at the nodes. Set Level = coupled and "
+            "a low permeability of the layers in both runs.");
         if (entry.path == "Water/Bulk modulus" && water_level() == "undrained")
           throw BadInput("Water/Bulk modulus was " + entry.before +
                          " Pa in the undrained installation and is " +
@@ -84,8 +86,8 @@ namespace CaissonMPM
       " has the checkpoint of a run with other entries, which decide the state "
       "of the ground:" +
       lines +
-      "\nSet them back, or run the installation again with them. Only the motion "
-      "of the body, its weight and friction, water, permeabilities, loads, the "
+      "\nSet them back, or run the installation again with them. Only the "
+      "motion of the body, its weight and friction, water, permeabilities, loads, the "
       "time step, the end and the output may differ.");
   }
 

@@ -2,7 +2,6 @@
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/simulation/physics_text.h>
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
@@ -12,39 +11,6 @@ namespace CaissonMPM
 {
   namespace
   {
-    bool
-    begins_with(const std::string &text, const std::string &word)
-    {
-      return text.compare(0, word.size(), word) == 0;
-    }
-
-    /** The entries that describe how the body moves, and what its walls and the
-     * water do to it, as the beginnings of their paths. */
-    const std::vector<std::string> free_after_installation = {
-      "Title",
-      "Installation/",
-      "Rigid body/Motion",
-      "Rigid body/Velocity",
-      "Rigid body/Ramp time",
-      "Rigid body/Largest Mach number",
-      "Rigid body/Lowering",
-      "Rigid body/Force table",
-      "Rigid body/Inertia",
-      "Rigid body/Release time",
-      "Rigid body/Submerged weight",
-      "Rigid body/Friction angle of the ",
-      "Rigid body/Adhesion of the ",
-      "Water/",
-      "Loads/",
-      "Method/Local damping",
-      "Time/Courant number",
-      "Time/Inertia tolerance",
-      "Time/Time step",
-      "Grid/Smallest row height",
-      "Grid/Largest number of cells",
-      "Material points/Largest number of points",
-      "Method/Instruction set"};
-
     /** The entries of a text of physics(), in its order. */
     std::vector<std::pair<std::string, std::string>>
     entries_of(const std::string &physics)
@@ -58,21 +24,6 @@ namespace CaissonMPM
                                line.substr(place + equals.size()));
       return entries;
     }
-
-    /** Whether an entry has no influence on the state at a given time. */
-    bool
-    is_not_physics(const DeclaredEntry &entry)
-    {
-      for (const std::string free : {"Output/",
-                                     "Run control/",
-                                     "Verification/",
-                                     "Design/",
-                                     "Time/End",
-                                     "Installation/End"})
-        if (begins_with(entry.path, free))
-          return true;
-      return false;
-    }
   } // namespace
 
 
@@ -83,7 +34,7 @@ namespace CaissonMPM
     const DeclaredEntries entries(prm);
     std::string           result;
     for (const DeclaredEntry &entry : entries.all())
-      if (!is_not_physics(entry))
+      if (entry.influence != Influence::none)
         result += entry.path + " = " + entry.value + "\n";
     return result;
   }
@@ -96,8 +47,9 @@ namespace CaissonMPM
     const DeclaredEntries entries(prm);
     std::set<std::string> lines;
     for (const DeclaredEntry &entry : entries.all())
-      if (!is_not_physics(entry) && entry.value != entry.default_value &&
-          entry.path != "Title" && entry.path != "Method/Instruction set")
+      if (entry.influence != Influence::none &&
+          entry.value != entry.default_value && entry.path != "Title" &&
+          entry.path != "Method/Instruction set")
         lines.insert(entry.path + " = " + entry.value + "\n");
     return std::accumulate(lines.begin(), lines.end(), std::string());
   }
@@ -136,18 +88,4 @@ namespace CaissonMPM
     return "";
   }
 
-
-
-  bool
-  may_change_after_installation(const std::string &path)
-  {
-    const bool is_permeability =
-      begins_with(path, "Soil/Layer ") &&
-      path.find("/Permeability") != std::string::npos;
-    return is_permeability || std::any_of(free_after_installation.begin(),
-                                          free_after_installation.end(),
-                                          [&](const std::string &free) {
-                                            return begins_with(path, free);
-                                          });
-  }
 } // namespace CaissonMPM

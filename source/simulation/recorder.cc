@@ -21,32 +21,34 @@ namespace CaissonMPM
   using namespace dealii;
 
   Recorder::Recorder(const RecordedParts &parts)
-    : ParameterAcceptor("/")
+    : Section("/", Influence::none)
     , parts(parts)
   {
-    add_parameter("Title",
-                  title,
-                  "The title says what the scene is. Units: none.");
+    add_parameter("Title", title, "", "The title says what the scene is.")
+      .influence = Influence::motion;
     enter_subsection("Output");
     add_parameter(
       "Directory",
       directory,
-      "All files of the run go to this directory, which is created if "
-      "it does not exist. Units: none.");
-    add_choice(*this,
-               "Terminal",
-               terminal,
-               {{"full", Terminal::full},
-                {"plain", Terminal::plain},
-                {"silent", Terminal::silent}},
-               "The program prints everything (full), only what does not "
-               "differ from run to run (plain), or nothing (silent). Units: "
-               "none.");
-    add_parameter("Walls at each record",
-                  walls_at_each_record,
-                  "wall.csv has the stresses along the walls at each row of "
-                  "history.csv, which springs along the wall need, and not at "
-                  "the frames only. Units: none.");
+      "",
+      "All files of the run go to this directory, which is created if it does "
+      "not exist.");
+    add_choice(
+      *this,
+      "Terminal",
+      terminal,
+      {{"full", Terminal::full},
+       {"plain", Terminal::plain},
+       {"silent", Terminal::silent}},
+      "",
+      "The program prints everything (full), only what does not differ from "
+      "run to run (plain), or nothing (silent).");
+    add_parameter(
+      "Walls at each record",
+      walls_at_each_record,
+      "",
+      "wall.csv has the stresses along the walls at each row of history.csv, "
+      "which springs along the wall need, and not at the frames only.");
     leave_subsection();
   }
 

@@ -81,13 +81,13 @@ namespace CaissonMPM
       const DeclaredEntries declared(ParameterAcceptor::prm);
       Json::Members         entries, defaults, units;
       for (const DeclaredEntry &entry : declared.all())
-        if (entry.alias_of.empty() && entry.value != entry.default_value)
+        if (entry.value != entry.default_value)
           {
             entries.emplace_back(entry.path, Json::text(entry.value));
             if (!entry.unit.empty())
               units.emplace_back(entry.path, Json::text(entry.unit));
           }
-        else if (entry.alias_of.empty() && entry.path.find("Soil/Layer ") != 0)
+        else if (entry.path.find("Soil/Layer ") != 0)
           defaults.emplace_back(entry.path, Json::text(entry.value));
       std::vector<std::string> warnings, assumed;
       for (const Warning &warning : facts.warnings)

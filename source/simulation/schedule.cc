@@ -22,52 +22,57 @@ namespace CaissonMPM
   }                                    // namespace
 
   Schedule::Schedule(const RigidBody &body, const Clock &clock)
-    : ParameterAcceptor("/")
+    : Section("/", Influence::none)
     , body(body)
     , clock(clock)
   {
     const Patterns::Double not_negative(0.);
     enter_subsection("Time");
-    add_word_or_number(*this,
-                       "End time",
-                       last_time,
-                       "never",
-                       0.,
-                       "The run ends at this time, unless End penetration ends "
-                       "it earlier. Units: s.",
-                       not_negative);
-    add_word_or_number(*this,
-                       "End penetration",
-                       last_penetration,
-                       "never",
-                       0.,
-                       "The run ends when the tip of the body has come to this "
-                       "depth, unless End time ends it earlier. Units: m.",
-                       not_negative);
+    add_word_or_number(
+      *this,
+      "End time",
+      last_time,
+      "never",
+      0.,
+      "s",
+      "The run ends at this time, unless End penetration ends it earlier.",
+      not_negative);
+    add_word_or_number(
+      *this,
+      "End penetration",
+      last_penetration,
+      "never",
+      0.,
+      "m",
+      "The run ends when the tip of the body has come to this depth, unless "
+      "End time ends it earlier.",
+      not_negative);
     leave_subsection();
     enter_subsection("Output");
-    add_word_or_number(*this,
-                       "Record interval",
-                       record_interval,
-                       "every step",
-                       0.,
-                       "The rows of history.csv are this time apart, and their "
-                       "forces are means over it. Units: s.",
-                       not_negative);
-    add_word_or_number(*this,
-                       "Frame interval",
-                       frame_interval,
-                       "never",
-                       0.,
-                       "Frames (VTU) are written this time apart, besides the "
-                       "first, the last and those at Frame penetrations. "
-                       "Units: s.",
-                       Patterns::Double(1e-9));
+    add_word_or_number(
+      *this,
+      "Record interval",
+      record_interval,
+      "every step",
+      0.,
+      "s",
+      "The rows of history.csv are this time apart, and their forces are means "
+      "over it.",
+      not_negative);
+    add_word_or_number(
+      *this,
+      "Frame interval",
+      frame_interval,
+      "never",
+      0.,
+      "s",
+      "Frames (VTU) are written this time apart, besides the first, the last "
+      "and those at Frame penetrations.",
+      Patterns::Double(1e-9));
     add_parameter("Frame penetrations",
                   frame_penetrations,
-                  "Further frames are written at these penetrations. Units: "
-                  "m.",
-                  prm,
+                  "m",
+                  "Further frames are written at these penetrations.",
                   Patterns::List(Patterns::Double(0.), 0, 1000));
     leave_subsection();
   }

@@ -11,8 +11,6 @@
 #include <caisson_mpm/water/pore_water_factory.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/patterns.h>
-#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +22,7 @@ namespace CaissonMPM
   using namespace dealii;
 
   Simulation::Simulation(const MPI_Comm communicator)
-    : ParameterAcceptor("/")
+    : Section("/", Influence::none)
     , grid(lines, communicator)
     , points(grid)
     , schedule(body, clock)
@@ -60,23 +58,26 @@ namespace CaissonMPM
       [this]() { return stress_over_inertia_at_tip(body.motion().travel()); });
     recorder.follow_steps([this]() { return number_of_steps(); });
     enter_subsection("Method");
-    add_parameter("Instruction set",
-                  instruction_set,
-                  "The kernels use this instruction set; with auto, the widest "
-                  "of this processor. Units: none.",
-                  prm,
-                  Patterns::Selection(std::string("auto|") +
-                                      Kernels::instruction_sets));
+    add_parameter(
+      "Instruction set",
+      instruction_set,
+      "",
+      "The kernels use this instruction set; with auto, the widest of this "
+      "processor.",
+      Patterns::Selection(std::string("auto|") + Kernels::instruction_sets))
+      .influence = Influence::motion;
     leave_subsection();
     enter_subsection("Output");
-    add_word_or_number(*this,
-                       "Checkpoint interval",
-                       checkpoint_interval,
-                       "never",
-                       0.,
-                       "Checkpoints are written this wall time apart, and when "
-                       "the run is stopped or finished. Units: s.",
-                       Patterns::Double(0.));
+    add_word_or_number(
+      *this,
+      "Checkpoint interval",
+      checkpoint_interval,
+      "never",
+      0.,
+      "s",
+      "Checkpoints are written this wall time apart, and when the run is "
+      "stopped or finished.",
+      Patterns::Double(0.));
     leave_subsection();
     register_totals();
   }
@@ -249,11 +250,9 @@ namespace CaissonMPM
     for (const unsigned int face : {2, 3})
       if (const int beyond = grid.neighbor(cell, face);
           beyond >= 0 && !grid.is_rigid(beyond))
-        {
-          const double height = height_of(grid.geometry(beyond));
-          if (height < much_thinner * size[vertical])
-            size[vertical] = height;
-        }
+        if (const double height = height_of(grid.geometry(beyond));
+            height < much_thinner * size[vertical])
+          size[vertical] = height;
     return size;
   }
 

@@ -58,7 +58,7 @@ namespace CaissonMPM
     bool
     is_in_pascals(const DeclaredEntry &entry)
     {
-      return entry.unit == "Pa" && entry.alias_of.empty();
+      return entry.unit == "Pa";
     }
 
     /** The number that an entry has; 0 where it has none, as an expression. */

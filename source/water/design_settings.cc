@@ -24,45 +24,45 @@ namespace CaissonMPM
        "The report divides the suctions at which piping begins by this factor, "
        "for the exit gradient computed and by Houlsby and Byrne. No factor is "
        "established for an installation.",
-       "none",
+       "",
        .1},
       {"Factor on plug failure",
        1.5,
        "The report divides the suction at which a plug of clay fails, as "
        "reverse bearing, by this factor. 1.5 is custom (DNV-RP-E303).",
-       "none",
+       "",
        .1},
       {"Factor on plug lift",
        1.,
        "The report divides the suction at which the water of sand below lifts "
        "a plug of clay by this factor. No factor is established.",
-       "none",
+       "",
        .1},
       {"Factor on boiling",
        1.,
        "The report divides the suction at which water boils beneath the lid by "
        "this factor. No factor is established.",
-       "none",
+       "",
        .1},
       {"Factor on pump",
        1.,
        "The report divides the largest suction of the pump by this factor. No "
        "factor is established.",
-       "none",
+       "",
        .1},
       {"Factor on plug heave",
        1.,
        "The report multiplies the heave of the plug by this factor where it "
        "looks for the depth at which the plug meets the lid. No factor is "
        "established.",
-       "none",
+       "",
        .1},
       {"Factor on shell buckling",
        1.3,
        "The report multiplies suction, weight and pressure of the soil by this "
        "factor where it checks whether the wall buckles. 1.3 is the load "
        "factor of DNV-OS-C101; DNV-RP-C202 adds a factor on the strength.",
-       "none",
+       "",
        .1},
       {"Steel yield strength",
        355e6,
@@ -80,7 +80,7 @@ namespace CaissonMPM
        .5,
        "The wall is held by the soil this many diameters below the mudline: "
        "the part above, up to the lid, may buckle.",
-       "none"},
+       ""},
       {"Ring stiffener spacing",
        0.,
        "Distance between ring stiffeners of the wall, from the lid down, which "
@@ -91,13 +91,13 @@ namespace CaissonMPM
 
 
   DesignSettings::DesignSettings()
-    : Section("/Design")
+    : Section("/Design", Influence::none)
   {
     for (const Record &record : records)
       add_parameter(record.name,
                     values.emplace_back(record.value),
-                    std::string(record.text) + " Units: " + record.unit + ".",
-                    prm,
+                    record.unit,
+                    record.text,
                     dealii::Patterns::Double(record.least));
   }
 } // namespace CaissonMPM

@@ -14,7 +14,7 @@ namespace CaissonMPM
   } // namespace
 
   FeasibilitySettings::FeasibilitySettings()
-    : Section("/Installation")
+    : Section("/Installation", Influence::none)
   {
     add_word_or_number(
       *this,
@@ -22,10 +22,11 @@ namespace CaissonMPM
       distance,
       "never",
       {},
-      "The run ends this far behind the penetration at which suction can install "
-      "the caisson no more: the exit gradient is critical (piping), or the "
-      "plug rises, beyond what the wall displaces, by more than half of the "
-      "penetration (plug lift). Units: m.",
+      "m",
+      "The run ends this far behind the penetration at which suction can "
+      "install the caisson no more: the exit gradient is critical (piping), or "
+      "the plug rises, beyond what the wall displaces, by more than half of "
+      "the penetration (plug lift).",
       dealii::Patterns::Double(0.));
   }
 

@@ -20,15 +20,15 @@ namespace CaissonMPM
   }                                                                // namespace
 
   SeaSettings::SeaSettings()
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
     add_parameter(
       "Water depth",
       depth,
-      "The depth of the mudline below the sea sets the pressure "
-      "at which water boils: beneath the lid, whose height takes "
-      "from it, where a run ends, and in the soil, where it warns. Units: m.",
-      prm,
+      "m",
+      "The depth of the mudline below the sea sets the pressure at which water "
+      "boils: beneath the lid, whose height takes from it, where a run ends, "
+      "and in the soil, where it warns.",
       Patterns::Double(0.));
   }
 
@@ -48,89 +48,99 @@ namespace CaissonMPM
   }
 
   SuctionSettings::SuctionSettings()
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
-    add_choice(*this,
-               "Suction control",
-               control,
-               {{"automatic", Control::automatic},
-                {"required", Control::required},
-                {"table", Control::table},
-                {"flow", Control::flow},
-                {"sealed", Control::sealed}},
-               "The suction is the one that the body requires to move as "
-               "prescribed (required), that of Suction table (table), the "
-               "one at which the pump takes the flow of Pumped flow table "
-               "(flow), or the one of water that no pump takes and that only "
-               "the plug and a leak let in or out (sealed). Automatic is "
-               "required where water flows (Level = seepage or coupled), and "
-               "no suction elsewhere. Units: none.");
-    add_parameter("Suction table",
-                  table_text,
-                  "Pairs time : suction, separated by commas; linear in "
-                  "between and constant beyond. A body that its loads move "
-                  "rests first: there the time begins. Units: s : Pa.",
-                  prm,
-                  Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"),
-                                 0,
-                                 10000));
-    add_parameter("Pumped flow table",
-                  flow_text,
-                  "Pairs time : flow of the water that the pump takes from "
-                  "beneath the lid, separated by commas; linear in between "
-                  "and constant beyond. The time of a body that weight and "
-                  "suction move begins when it rests. Units: s : m3/s.",
-                  prm,
-                  Patterns::List(
-                    Patterns::List(Patterns::Double(0.), 2, 2, ":"), 0, 10000));
-    add_parameter("Pump delay",
-                  pump_delay,
-                  "The suction changes by a tenth of weight and suction in "
-                  "this time where no water follows the pump. Units: s.",
-                  prm,
-                  Patterns::Double(1e-3));
-    add_parameter("Suction delay",
-                  delay,
-                  "The suction follows the required one with this time "
-                  "constant. Units: s.",
-                  prm,
-                  Patterns::Double(1e-6));
-    add_word_or_number(*this,
-                       "Largest suction",
-                       largest,
-                       "unlimited",
-                       0.,
-                       "The run ends where the required suction exceeds that "
-                       "of the pump. Units: Pa.",
-                       Patterns::Double(0.));
+    add_choice(
+      *this,
+      "Suction control",
+      control,
+      {{"automatic", Control::automatic},
+       {"required", Control::required},
+       {"table", Control::table},
+       {"flow", Control::flow},
+       {"sealed", Control::sealed}},
+      "",
+      "The suction is the one that the body requires to move as prescribed "
+      "(required), that of Suction table (table), the one at which the pump "
+      "takes the flow of Pumped flow table (flow), or the one of water that no "
+      "pump takes and that only the plug and a leak let in or out (sealed). "
+      "Automatic is required where water flows (Level = seepage or coupled), "
+      "and no suction elsewhere.");
+    add_parameter(
+      "Suction table",
+      table_text,
+      "s : Pa",
+      "Pairs time : suction, separated by commas; linear in between and "
+      "constant beyond. A body that its loads move rests first: there the time "
+      "begins.",
+      Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
+    add_entries_of_pump();
     add_entries_of_water_beneath_lid();
     parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
   void
+  SuctionSettings::add_entries_of_pump()
+  {
+    add_parameter(
+      "Pumped flow table",
+      flow_text,
+      "s : m3/s",
+      "Pairs time : flow of the water that the pump takes from beneath the "
+      "lid, separated by commas; linear in between and constant beyond. The "
+      "time of a body that weight and suction move begins when it rests.",
+      Patterns::List(Patterns::List(Patterns::Double(0.), 2, 2, ":"),
+                     0,
+                     10000));
+    add_parameter(
+      "Pump delay",
+      pump_delay,
+      "s",
+      "The suction changes by a tenth of weight and suction in this time where "
+      "no water follows the pump.",
+      Patterns::Double(1e-3));
+    add_parameter(
+      "Suction delay",
+      delay,
+      "s",
+      "The suction follows the required one with this time constant.",
+      Patterns::Double(1e-6));
+    add_word_or_number(
+      *this,
+      "Largest suction",
+      largest,
+      "unlimited",
+      0.,
+      "Pa",
+      "The run ends where the required suction exceeds that of the pump.",
+      Patterns::Double(0.));
+  }
+
+  void
   SuctionSettings::add_entries_of_water_beneath_lid()
   {
-    add_parameter("Trapped gas",
-                  gas,
-                  "The volume of gas beneath the lid at the pressure of the "
-                  "open water on the mudline. It expands under suction at "
-                  "constant temperature, which delays the suction; the pump "
-                  "takes it, too. Units: m3.",
-                  prm,
-                  Patterns::Double(0.));
-    add_parameter("Lid water modulus",
-                  bulk_modulus,
-                  "The bulk modulus of the water beneath a sealed lid, which "
-                  "may contain how far the lid gives way. Units: Pa.",
-                  prm,
-                  Patterns::Double(1e3));
-    add_parameter("Lid leak",
-                  leak,
-                  "The flow of water through a valve that is not tight into "
-                  "the space beneath a sealed lid, over the suction. Units: "
-                  "m3/(s Pa).",
-                  prm,
-                  Patterns::Double(0.));
+    add_parameter(
+      "Trapped gas",
+      gas,
+      "m3",
+      "The volume of gas beneath the lid at the pressure of the open water on "
+      "the mudline. It expands under suction at constant temperature, which "
+      "delays the suction; the pump takes it, too.",
+      Patterns::Double(0.));
+    add_parameter(
+      "Lid water modulus",
+      bulk_modulus,
+      "Pa",
+      "The bulk modulus of the water beneath a sealed lid, which may contain "
+      "how far the lid gives way.",
+      Patterns::Double(1e3));
+    add_parameter(
+      "Lid leak",
+      leak,
+      "m3/(s Pa)",
+      "The flow of water through a valve that is not tight into the space "
+      "beneath a sealed lid, over the suction.",
+      Patterns::Double(0.));
   }
 
   void

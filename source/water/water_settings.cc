@@ -19,65 +19,74 @@ namespace CaissonMPM
   } // namespace
 
   UndrainedSettings::UndrainedSettings()
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
-    add_parameter("Bulk modulus",
-                  bulk_modulus,
-                  "Bulk modulus of the water in undrained soil over the "
-                  "porosity: the excess pressure is this times the decrease of "
-                  "volume. 20 to 60 times the bulk modulus of the soil leaves "
-                  "hardly any change of volume. Units: Pa.",
-                  prm,
-                  Patterns::Double(1e-9));
+    add_parameter(
+      "Bulk modulus",
+      bulk_modulus,
+      "Pa",
+      "Bulk modulus of the water in undrained soil over the porosity: the "
+      "excess pressure is this times the decrease of volume. 20 to 60 times "
+      "the bulk modulus of the soil leaves hardly any change of volume.",
+      Patterns::Double(1e-9));
   }
 
   SeepageSettings::SeepageSettings()
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
-    add_parameter("Renewal",
-                  renewal,
-                  "The flow is computed again when the body has moved, or the "
-                  "mudline changed, by this share of a cell. Units: none.",
-                  prm,
-                  Patterns::Double(1e-6, 1.));
+    add_parameter(
+      "Renewal",
+      renewal,
+      "",
+      "The flow is computed again when the body has moved, or the mudline "
+      "changed, by this share of a cell.",
+      Patterns::Double(1e-6, 1.));
   }
 
   CoupledSettings::CoupledSettings(PressureSolver::OpenSides &sides)
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
-    add_parameter("Time compression",
-                  time_compression,
-                  "The scene runs this many times faster than what it stands "
-                  "for, and a coupled run multiplies all permeabilities with "
-                  "it, so that as much water flows. Units: none.",
-                  prm,
-                  Patterns::Double(1e-9));
-    add_parameter("Drained surface",
-                  sides.surface,
-                  "The free surface of the soil outside keeps the pressure of "
-                  "the open water; otherwise nothing flows through it. Units: "
-                  "none.");
-    add_parameter("Bottom pressure",
-                  bottom_text,
-                  "A drained bottom has this excess pressure in a coupled run, "
-                  "as an expression in the time t. Units: Pa.");
+    add_parameter(
+      "Time compression",
+      time_compression,
+      "",
+      "The scene runs this many times faster than what it stands for, and a "
+      "coupled run multiplies all permeabilities with it, so that as much "
+      "water flows.",
+      Patterns::Double(1e-9));
+    add_parameter(
+      "Drained surface",
+      sides.surface,
+      "",
+      "The free surface of the soil outside keeps the pressure of the open "
+      "water; otherwise nothing flows through it.");
+    add_parameter(
+      "Bottom pressure",
+      bottom_text,
+      "Pa",
+      "A drained bottom has this excess pressure in a coupled run, as an "
+      "expression in the time t.");
   }
 
   OpenSideSettings::OpenSideSettings(PressureSolver::OpenSides &sides)
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
   {
-    add_parameter("Drained outer side",
-                  sides.outer,
-                  "The far side of the domain keeps the pressure of the open "
-                  "water; otherwise nothing flows through it. Units: none.");
-    add_parameter("Drained bottom",
-                  sides.bottom,
-                  "The bottom of the domain keeps the pressure of the open "
-                  "water; otherwise nothing flows through it. Units: none.");
+    add_parameter(
+      "Drained outer side",
+      sides.outer,
+      "",
+      "The far side of the domain keeps the pressure of the open water; "
+      "otherwise nothing flows through it.");
+    add_parameter(
+      "Drained bottom",
+      sides.bottom,
+      "",
+      "The bottom of the domain keeps the pressure of the open water; "
+      "otherwise nothing flows through it.");
   }
 
   WaterSettings::WaterSettings()
-    : Section("/Water")
+    : Section("/Water", Influence::motion)
     , coupled(sides)
     , open_sides(sides)
   {
@@ -86,11 +95,11 @@ namespace CaissonMPM
       "Level",
       level,
       levels,
-      "The pore water has no excess pressure (drained), stays where it "
-      "is and resists any change of volume (undrained), flows "
-      "steadily under the suction beneath the lid of a caisson "
-      "(seepage), or has the pressure that follows from the motion of "
-      "the soil (coupled). Units: none.");
+      "",
+      "The pore water has no excess pressure (drained), stays where it is and "
+      "resists any change of volume (undrained), flows steadily under the "
+      "suction beneath the lid of a caisson (seepage), or has the pressure "
+      "that follows from the motion of the soil (coupled).");
   }
 
   std::string

@@ -19,7 +19,7 @@ test_good_file(const Soil &soil, const Grid &grid)
     read_text("\xEF\xBB\xBF# Shows what may stand in a file.\r\n"
               "subsection Soil   # the sand\r\n"
               "  set  Friction   angle= 38 # as measured\r\n"
-              "  set Stiffness = 2e7\r\n"
+              "  set Youngs modulus = 2e7\r\n"
               "end\r\n"
               "SUBSECTION Grid\n"
               "subsection Fine zone\n"
@@ -105,7 +105,6 @@ test_bad_statements()
   read("subsection Soil\n  set Friction angle =\n");
   read("subsection Soil\n  set Youngs modulus = -1\n");
   read("subsection Soil\n  set Youngs modulus = nan\n");
-  read("subsection Soil\n  set Stiffness = -1\n");
   read("subsection Soil\n  set Model = Mohr Coulomb\n");
   read("subsection Grid\nsubsection Fine zone\n  set Points per cell = -1");
   read("subsection Grid\nsubsection Fine zone\n  set Points per cell = 2.5");
@@ -116,7 +115,7 @@ test_bad_statements()
 
   title("entries that are set twice");
   read("subsection Soil\n  set Model = Tresca\n  set Model = Tresca\n");
-  read("subsection Soil\n  set Stiffness = 1\nend\n"
+  read("subsection Soil\n  set Youngs modulus = 1\nend\n"
        "subsection Soil\n  set Youngs modulus = 2\n");
 }
 
@@ -141,7 +140,7 @@ test_include(const Soil &soil, const Grid &grid)
   const std::pair<std::string, std::string> base = {
     "base/sand.prm",
     "subsection Soil\n  set Friction angle = 30\n"
-    "  set Stiffness = 1e6\nend\n"};
+    "  set Youngs modulus = 1e6\nend\n"};
   const std::pair<std::string, std::string> wide = {
     "base/wide.prm",
     "# a comment may stand before\ninclude sand.prm\nsubsection Grid\n"

@@ -25,29 +25,26 @@ namespace Patterns = dealii::Patterns;
 
 
 /** Entries as the classes of the program declare them. */
-struct Soil : public ParameterAcceptor
+struct Soil : public Section
 {
   Soil()
-    : ParameterAcceptor("Soil")
+    : Section("Soil")
   {
     add_parameter("Friction angle",
                   friction_angle,
-                  "Angle of internal friction of the sand. Units: degree",
-                  prm,
+                  "degree",
+                  "Angle of internal friction of the sand.",
                   Patterns::Double(0., 90.));
     add_parameter("Youngs modulus",
                   youngs_modulus,
-                  "Stiffness of the skeleton. Units: Pa",
-                  prm,
+                  "Pa",
+                  "Stiffness of the skeleton.",
                   Patterns::Double(0.));
     add_parameter("Model",
                   model,
-                  "The constitutive model. Units: none",
-                  prm,
+                  "",
+                  "The constitutive model.",
                   Patterns::Selection("elastic|Mohr-Coulomb|Tresca"));
-    prm.enter_subsection("Soil");
-    prm.declare_alias("Youngs modulus", "Stiffness", true);
-    prm.leave_subsection();
   }
 
   double      friction_angle = 31.;
@@ -57,27 +54,26 @@ struct Soil : public ParameterAcceptor
 
 
 
-struct Grid : public ParameterAcceptor
+struct Grid : public Section
 {
   Grid()
-    : ParameterAcceptor("Grid/Fine zone")
+    : Section("Grid/Fine zone")
   {
     add_parameter("Points per cell",
                   n_points,
-                  "Material points per cell and direction. Units: none");
+                  "",
+                  "Material points per cell and direction.");
     add_parameter("Columns",
                   n_columns,
-                  "Cells from the axis to the rim. Units: none",
-                  prm,
+                  "",
+                  "Cells from the axis to the rim.",
                   Patterns::Integer(1, 1000));
     add_parameter("Rows",
                   rows,
-                  "Height of each row. Units: m",
-                  prm,
+                  "m",
+                  "Height of each row.",
                   Patterns::List(Patterns::Double(0.), 1, 4));
-    add_parameter("Moves",
-                  moves,
-                  "Whether the zone moves with the body. Units: none");
+    add_parameter("Moves", moves, "", "Whether the zone moves with the body.");
   }
 
   unsigned int        n_points  = 3;
@@ -89,7 +85,7 @@ struct Grid : public ParameterAcceptor
 
 
 /** A choice, and words in the place of numbers. */
-struct Method : public ParameterAcceptor
+struct Method : public Section
 {
   enum class Transfer
   {
@@ -98,26 +94,29 @@ struct Method : public ParameterAcceptor
   };
 
   Method()
-    : ParameterAcceptor("/Method")
+    : Section("/Method")
   {
     add_choice(*this,
                "Velocity transfer",
                transfer,
                {{"FLIP", Transfer::flip}, {"PIC", Transfer::pic}},
-               "How points take the velocity of the grid. Units: none.");
+               "",
+               "How points take the velocity of the grid.");
     add_word_or_number(*this,
                        "Record interval",
                        interval,
                        "every step",
                        0.,
-                       "Time between records. Units: s.",
+                       "s",
+                       "Time between records.",
                        Patterns::Double(0.));
     add_word_or_number(*this,
                        "K0",
                        k0,
                        "auto",
                        {},
-                       "Ratio of stresses. Units: none.",
+                       "",
+                       "Ratio of stresses.",
                        Patterns::Double(0., 10.));
   }
 

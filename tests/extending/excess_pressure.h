@@ -11,23 +11,24 @@
 #include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 
 namespace CaissonMPM
 {
   /** The pressure is interpolated from the nodes, and integrated as the stress
    * is. */
-  class ExcessPressure : public NodalForce, public dealii::ParameterAcceptor
+  class ExcessPressure : public NodalForce, public Section
   {
   public:
     ExcessPressure()
-      : ParameterAcceptor("/Loads")
+      : Section("/Loads")
     {
-      add_parameter("Excess pore pressure",
-                    text,
-                    "Pore pressure in excess of the hydrostatic one, positive "
-                    "in compression, as an expression in the place r and z of "
-                    "a node, the time t and pi. Units: Pa.");
+      add_parameter(
+        "Excess pore pressure",
+        text,
+        "Pa",
+        "Pore pressure in excess of the hydrostatic one, positive in "
+        "compression, as an expression in the place r and z of a node, the "
+        "time t and pi.");
     }
 
     std::string

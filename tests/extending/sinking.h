@@ -16,32 +16,22 @@ namespace CaissonMPM
   {
   public:
     Sinking()
-      : BodyMotion("/Rigid body")
+      : BodyMotion("sinking", "the body sinks by its own weight")
     {
-      add_parameter("Sinking mass",
-                    mass,
-                    "The mass of a body that sinks by its own weight, on the "
-                    "whole circumference. Units: kg.",
-                    prm,
-                    dealii::Patterns::Double(1e-9));
-      add_parameter("Sinking weight",
-                    weight,
-                    "The submerged weight of a body that sinks by its own "
-                    "weight, on the whole circumference. Units: N.",
-                    prm,
-                    dealii::Patterns::Double(0.));
-    }
-
-    std::string
-    name() const override
-    {
-      return "sinking";
-    }
-
-    std::string
-    description() const override
-    {
-      return "the body sinks by its own weight";
+      add_parameter(
+        "Sinking mass",
+        mass,
+        "kg",
+        "The mass of a body that sinks by its own weight, on the whole "
+        "circumference.",
+        dealii::Patterns::Double(1e-9));
+      add_parameter(
+        "Sinking weight",
+        weight,
+        "N",
+        "The submerged weight of a body that sinks by its own weight, on the "
+        "whole circumference.",
+        dealii::Patterns::Double(0.));
     }
 
     bool

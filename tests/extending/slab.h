@@ -17,26 +17,15 @@ namespace CaissonMPM
   {
   public:
     Slab()
+      : BodyShape("slab", "a circular slab that lies on the soil")
     {
       add_outer_diameter(diameter);
       add_cells_across(cells_across);
       add_parameter("Slab thickness",
                     thickness,
-                    "The thickness of a slab. Units: m.",
-                    prm,
+                    "m",
+                    "The thickness of a slab.",
                     dealii::Patterns::Double(1e-9));
-    }
-
-    std::string
-    name() const override
-    {
-      return "slab";
-    }
-
-    std::string
-    description() const override
-    {
-      return "a circular slab that lies on the soil";
     }
 
     void
@@ -48,40 +37,16 @@ namespace CaissonMPM
                        " m. Reduce the thickness.");
     }
 
-    double
-    left() const override
+    BodyPart
+    extent() const override
     {
-      return 0.;
-    }
-
-    double
-    right() const override
-    {
-      return .5 * diameter;
-    }
-
-    double
-    bottom() const override
-    {
-      return 0.;
-    }
-
-    double
-    top() const override
-    {
-      return thickness;
+      return {0., .5 * diameter, 0., thickness};
     }
 
     double
     cell_width() const override
     {
       return right() / cells_across;
-    }
-
-    bool
-    contains(const Point &p, const double travel) const override
-    {
-      return is_within_extent(Point(p[0], p[1] + travel));
     }
 
   private:

@@ -8,22 +8,21 @@
 #include <caisson_mpm/operators/nodal_force.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/patterns.h>
 
 namespace CaissonMPM
 {
   /** The nodal force of the entry "Loads/Updraft". */
-  class Updraft : public NodalForce, public dealii::ParameterAcceptor
+  class Updraft : public NodalForce, public Section
   {
   public:
     Updraft()
-      : ParameterAcceptor("/Loads")
+      : Section("/Loads")
     {
       add_parameter("Updraft",
                     per_volume,
-                    "An upward force on each volume of soil. Units: N/m3.",
-                    prm,
+                    "N/m3",
+                    "An upward force on each volume of soil.",
                     dealii::Patterns::Double(0.));
     }
 

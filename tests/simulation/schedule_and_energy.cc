@@ -113,18 +113,8 @@ namespace
   {
   public:
     Unknown()
-      : BodyMotion("/Rigid body")
+      : BodyMotion("unknown", "not known in advance")
     {}
-    std::string
-    name() const override
-    {
-      return "unknown";
-    }
-    std::string
-    description() const override
-    {
-      return "not known in advance";
-    }
 
   protected:
     void

@@ -5,8 +5,9 @@
 #ifndef caisson_mpm_base_choice_h
 #define caisson_mpm_base_choice_h
 
+#include <caisson_mpm/base/section.h>
+
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/patterns.h>
 
 #include <functional>
@@ -22,10 +23,11 @@ namespace CaissonMPM
    * Declare an entry in the section of @p owner, and call @p set with the text
    * whenever the entry is set to a value that matches @p pattern.
    */
-  void
-  add_entry(dealii::ParameterAcceptor                      &owner,
+  EntryRecord &
+  add_entry(Section                                        &owner,
             const std::string                              &entry,
             const std::string                              &default_value,
+            const std::string                              &unit,
             const std::string                              &text,
             const dealii::Patterns::PatternBase            &pattern,
             const std::function<void(const std::string &)> &set);
@@ -53,30 +55,32 @@ namespace CaissonMPM
    * @code
    * add_choice(*this, "Velocity transfer", transfer,
    *            {{"FLIP", Transfer::flip}, {"PIC", Transfer::pic}},
-   *            "How points take the velocity of the grid. Units: none.");
+   *            "", "How points take the velocity of the grid.");
    * @endcode
    */
   template <typename Enum>
-  void
-  add_choice(dealii::ParameterAcceptor &owner,
-             const std::string         &entry,
-             Enum                      &value,
-             const Choices<Enum>       &choices,
-             const std::string         &text)
+  EntryRecord &
+  add_choice(Section             &owner,
+             const std::string   &entry,
+             Enum                &value,
+             const Choices<Enum> &choices,
+             const std::string   &unit,
+             const std::string   &text)
   {
     std::string names;
     for (const auto &choice : choices)
       names += (names.empty() ? "" : "|") + choice.first;
-    add_entry(owner,
-              entry,
-              name_of(choices, value),
-              text,
-              dealii::Patterns::Selection(names),
-              [&value, choices](const std::string &name) {
-                for (const auto &choice : choices)
-                  if (choice.first == name)
-                    value = choice.second;
-              });
+    return add_entry(owner,
+                     entry,
+                     name_of(choices, value),
+                     unit,
+                     text,
+                     dealii::Patterns::Selection(names),
+                     [&value, choices](const std::string &name) {
+                       for (const auto &choice : choices)
+                         if (choice.first == name)
+                           value = choice.second;
+                     });
   }
 
   /**
@@ -121,18 +125,19 @@ namespace CaissonMPM
    * is the default.
    *
    * @code
-   * add_word_or_number(*this, "K0", k0, "auto", -1.,
-   *                    "Horizontal over vertical stress. Units: none.",
+   * add_word_or_number(*this, "K0", k0, "auto", -1., "",
+   *                    "Horizontal over vertical stress.",
    *                    Patterns::Double(0., 10.));
    * @endcode
    */
-  void
+  EntryRecord &
   add_word_or_number(
-    dealii::ParameterAcceptor           &owner,
+    Section                             &owner,
     const std::string                   &entry,
     std::optional<double>               &value,
     const std::string                   &word,
     const std::optional<double>          old_value,
+    const std::string                   &unit,
     const std::string                   &text,
     const dealii::Patterns::PatternBase &number = dealii::Patterns::Double());
 

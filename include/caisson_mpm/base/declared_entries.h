@@ -5,6 +5,8 @@
 #ifndef caisson_mpm_base_declared_entries_h
 #define caisson_mpm_base_declared_entries_h
 
+#include <caisson_mpm/base/section.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
@@ -26,10 +28,7 @@ namespace CaissonMPM
     std::string              unit; // empty where there is none
     /** As Patterns::PatternBase::description() writes it. */
     std::string pattern;
-    /** The path of the entry that this is another name of, else empty. */
-    std::string alias_of;
-    /** Whether this other name is an old one that should be replaced. */
-    bool is_deprecated = false;
+    Influence   influence = Influence::ground;
   };
 
   /**
@@ -57,7 +56,7 @@ namespace CaissonMPM
       return subsections.count(path) > 0;
     }
 
-    /** The paths of all entries (without aliases). */
+    /** The paths of all entries. */
     std::vector<std::string>
     entry_paths() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A section of the parameters whose owner is one of several to choose from.
+// A section of the parameters, and what its owner says of each entry where it
+// declares it.
 #ifndef caisson_mpm_base_section_h
 #define caisson_mpm_base_section_h
 
@@ -14,34 +15,71 @@
 
 namespace CaissonMPM
 {
+  /** What an entry decides. */
+  enum class Influence
+  {
+    ground, // the state of the ground, too
+    motion, // how the body moves, and what its walls and the water do to it: it
+            // may change in a run after an installation
+    none    // nothing of the state at a given time
+  };
+
+  /** What deal.II does not know of an entry. */
+  struct EntryRecord
+  {
+    std::string unit; // empty: none
+    Influence   influence = Influence::ground;
+  };
+
   /**
-   * A ParameterAcceptor that remembers which entries it declares, with
-   * add_parameter() here or with the functions of choice.h. Where one of
+   * A ParameterAcceptor that keeps a record of each entry that it declares,
+   * with add_parameter() here or with the functions of choice.h. Where one of
    * several objects is chosen, name_entries_of_others() then finds what the
    * user has set for the others, without a list that somebody must keep.
    */
   class Section : public dealii::ParameterAcceptor
   {
   public:
-    explicit Section(const std::string &name)
+    /** All entries have this influence but those whose record says else. */
+    explicit Section(const std::string &name,
+                     const Influence    influence = Influence::ground)
       : ParameterAcceptor(name)
+      , influence(influence)
     {}
 
-    /** Declare an entry, as ParameterAcceptor does. */
-    template <typename... Arguments>
-    void
-    add_parameter(const std::string &entry, Arguments &&...arguments)
+    /**
+     * Declare an entry that sets @p value, whose present value is the default.
+     *
+     * @code
+     * add_parameter("Time step", step, "s", "The largest step.",
+     *               Patterns::Double(0.)).influence = Influence::motion;
+     * @endcode
+     */
+    template <typename Value>
+    EntryRecord &
+    add_parameter(const std::string                   &entry,
+                  Value                               &value,
+                  const std::string                   &unit,
+                  const std::string                   &text,
+                  const dealii::Patterns::PatternBase &pattern =
+                    *dealii::Patterns::Tools::Convert<Value>::to_pattern())
     {
-      remember(entry);
-      ParameterAcceptor::add_parameter(entry,
-                                       std::forward<Arguments>(arguments)...);
+      ParameterAcceptor::add_parameter(entry, value, text, prm, pattern);
+      return record(entry, unit);
     }
 
-    void
-    remember(const std::string &entry)
-    {
-      entries_.push_back(get_section_name().substr(1) + "/" + entry);
-    }
+    /** Keep the record of an entry that has been declared in the present
+     * subsection. */
+    EntryRecord &
+    record(const std::string &entry, const std::string &unit);
+
+    /** The record of an entry of any section; null: it is not declared. */
+    static const EntryRecord *
+    record_of(const std::string &path);
+
+    /** The path of an entry in the present subsection. */
+    std::string
+    path_of(const std::string &entry) const;
 
     /** The paths of the entries declared so far. */
     const std::vector<std::string> &
@@ -56,6 +94,7 @@ namespace CaissonMPM
     {}
 
   private:
+    Influence                influence;
     std::vector<std::string> entries_;
   };
 

@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_base_stop_request_h
 #define caisson_mpm_base_stop_request_h
 
-#include <deal.II/base/parameter_acceptor.h>
+#include <caisson_mpm/base/section.h>
 
 #include <array>
 #include <chrono>
@@ -38,7 +38,7 @@ namespace CaissonMPM
    *   }
    * @endcode
    */
-  class StopRequest : public dealii::ParameterAcceptor
+  class StopRequest : public Section
   {
   public:
     using Signals = std::array<int, 9>;

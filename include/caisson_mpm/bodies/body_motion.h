@@ -25,19 +25,26 @@ namespace CaissonMPM
   class BodyMotion : public Section
   {
   public:
-    /** @p section is that of the entries of the motion. */
-    explicit BodyMotion(const std::string &section)
-      : Section(section)
+    /** @p name is the value of the entry Motion that chooses this motion, and
+     * @p description says in a few words what moves the body, for the text of
+     * Motion. */
+    BodyMotion(const std::string &name, const std::string &description)
+      : Section("/Rigid body", Influence::motion)
+      , name_(name)
+      , description_(description)
     {}
 
-    /** The value of the entry Motion that chooses this motion. */
-    virtual std::string
-    name() const = 0;
+    const std::string &
+    name() const
+    {
+      return name_;
+    }
 
-    /** What moves the body, in a few words, for the text of the entry Motion.
-     */
-    virtual std::string
-    description() const = 0;
+    const std::string &
+    description() const
+    {
+      return description_;
+    }
 
     /** Throw BadInput where the entries of the chosen motion contradict each
      * other. */
@@ -251,9 +258,10 @@ namespace CaissonMPM
     double time_ = 0., travel_ = 0., velocity_ = 0., mean_velocity_ = 0.;
 
   private:
-    double        load_ = 0., mass_ = 0.;
-    Response      response_;
-    InitialMotion start_;
+    const std::string name_, description_;
+    double            load_ = 0., mass_ = 0.;
+    Response          response_;
+    InitialMotion     start_;
   };
 } // namespace CaissonMPM
 

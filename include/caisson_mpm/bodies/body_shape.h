@@ -38,17 +38,25 @@ namespace CaissonMPM
   public:
     using Point = dealii::Point<2>;
 
-    BodyShape()
+    /** @p name is the value of the entry Kind that chooses this shape, and
+     * @p description says in a few words what it is, for the text of Kind. */
+    BodyShape(const std::string &name, const std::string &description)
       : Section("/Rigid body")
+      , name_(name)
+      , description_(description)
     {}
 
-    /** The value of the entry Kind that chooses this shape. */
-    virtual std::string
-    name() const = 0;
+    const std::string &
+    name() const
+    {
+      return name_;
+    }
 
-    /** What the shape is, in a few words, for the text of the entry Kind. */
-    virtual std::string
-    description() const = 0;
+    const std::string &
+    description() const
+    {
+      return description_;
+    }
 
     /** Throw BadInput where the entries of the chosen shape contradict each
      * other. */
@@ -71,14 +79,29 @@ namespace CaissonMPM
 
     /** Return the extent in r and z: of the skirt of a caisson, with its
      * thickness at the tip, else of the whole body. Units: m. */
-    virtual double
-    left() const = 0;
-    virtual double
-    right() const = 0;
-    virtual double
-    bottom() const = 0;
-    virtual double
-    top() const = 0;
+    virtual BodyPart
+    extent() const = 0;
+
+    double
+    left() const
+    {
+      return extent().left;
+    }
+    double
+    right() const
+    {
+      return extent().right;
+    }
+    double
+    bottom() const
+    {
+      return extent().bottom;
+    }
+    double
+    top() const
+    {
+      return extent().top;
+    }
 
     /** Return the width of what goes down, 0 without any. Units: m. */
     double
@@ -137,7 +160,7 @@ namespace CaissonMPM
     virtual BodyPart
     part(const unsigned int /*i*/) const
     {
-      return {left(), right(), bottom(), top()};
+      return extent();
     }
 
     /** Whether a part is a ring inside the wall. */
@@ -224,7 +247,10 @@ namespace CaissonMPM
     /** Whether a place is inside the body, by more than round-off, after a
      * travel. */
     virtual bool
-    contains(const Point &p, const double travel) const = 0;
+    contains(const Point &p, const double travel) const
+    {
+      return is_within_extent(Point(p[0], p[1] + travel));
+    }
 
     /** Return the direction of a positive travel. */
     virtual Vector2
@@ -272,11 +298,11 @@ namespace CaissonMPM
              p[1] < part.top - round_off && p[1] > part.bottom + round_off;
     }
 
-    /** Whether a place is inside left(), right(), bottom() and top(). */
+    /** Whether a place is inside extent(). */
     bool
     is_within_extent(const Point &p) const
     {
-      return is_within(p, {left(), right(), bottom(), top()});
+      return is_within(p, extent());
     }
 
     // Entries that several shapes have. Each declares them for itself, so that
@@ -291,7 +317,8 @@ namespace CaissonMPM
     add_cells_across(unsigned int &n);
 
   private:
-    double refinement = 1.;
+    const std::string name_, description_;
+    double            refinement = 1.;
   };
 } // namespace CaissonMPM
 

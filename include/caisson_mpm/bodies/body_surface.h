@@ -5,8 +5,7 @@
 #define caisson_mpm_bodies_body_surface_h
 
 #include <caisson_mpm/base/parameter_origins.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <caisson_mpm/base/section.h>
 
 #include <array>
 #include <optional>
@@ -36,7 +35,7 @@ namespace CaissonMPM
    * Friction and adhesion of each surface, and the treatment of the edges
    * between them. Where the surfaces are follows from the grid. Not collective.
    */
-  class BodySurface : public dealii::ParameterAcceptor
+  class BodySurface : public Section
   {
   public:
     BodySurface();
@@ -46,8 +45,8 @@ namespace CaissonMPM
      * entries of surfaces that the body does not have.
      */
     void
-    name_unused_entries(ParameterOrigins &origins,
-                        const BodyShape  &shape) const;
+    name_unused_surfaces(ParameterOrigins &origins,
+                         const BodyShape  &shape) const;
 
     /** Whether a coefficient sets the friction of a surface, not an angle. */
     bool

@@ -19,27 +19,16 @@ namespace CaissonMPM
   {
   public:
     Box()
+      : BodyShape("box", "a rectangle in (r, z)")
     {
       add_parameter("Box left",
                     left_,
-                    "The smallest r of a box. Units: m.",
-                    prm,
+                    "m",
+                    "The smallest r of a box.",
                     dealii::Patterns::Double(0.));
-      add_parameter("Box right", right_, "The largest r of a box. Units: m.");
-      add_parameter("Box bottom", bottom_, "The lowest z of a box. Units: m.");
-      add_parameter("Box top", top_, "The highest z of a box. Units: m.");
-    }
-
-    std::string
-    name() const override
-    {
-      return "box";
-    }
-
-    std::string
-    description() const override
-    {
-      return "a rectangle in (r, z)";
+      add_parameter("Box right", right_, "m", "The largest r of a box.");
+      add_parameter("Box bottom", bottom_, "m", "The lowest z of a box.");
+      add_parameter("Box top", top_, "m", "The highest z of a box.");
     }
 
     void
@@ -53,40 +42,16 @@ namespace CaissonMPM
           to_text(bottom_) + " to " + to_text(top_) + " m.");
     }
 
-    double
-    left() const override
-    {
-      return left_;
-    }
-
-    double
-    right() const override
-    {
-      return right_;
-    }
-
-    double
-    bottom() const override
-    {
-      return bottom_;
-    }
-
-    double
-    top() const override
-    {
-      return top_;
-    }
-
     bool
     has_flat_base() const override
     {
       return true;
     }
 
-    bool
-    contains(const Point &p, const double travel) const override
+    BodyPart
+    extent() const override
     {
-      return is_within_extent(Point(p[0], p[1] + travel));
+      return {left_, right_, bottom_, top_};
     }
 
   private:

@@ -23,66 +23,58 @@ namespace CaissonMPM
   {
   public:
     Caisson()
+      : BodyShape("caisson", "a tube that is pushed into the soil")
     {
       using dealii::Patterns::Double;
       add_outer_diameter(outer_diameter);
       add_skirt_length(skirt_length);
-      add_parameter("Wall thickness",
-                    wall_thickness,
-                    "The thickness of a caisson's skirt, at its tip if it "
-                    "changes. Units: m.",
-                    prm,
-                    Double(1e-9));
+      add_parameter(
+        "Wall thickness",
+        wall_thickness,
+        "m",
+        "The thickness of a caisson's skirt, at its tip if it changes.",
+        Double(1e-9));
       wall.declare(*this);
       add_cells_across(cells_across);
-      add_choice(*this,
-                 "Tip",
-                 tip,
-                 {{"triangular", Tip::triangular}, {"flat", Tip::flat}},
-                 "The form of a caisson's tip is a wedge (triangular), or "
-                 "flat. Units: none.");
-      add_parameter("Edge of the tip",
-                    edge_of_tip,
-                    "The distance of the triangular tip's edge from the inner "
-                    "face of the wall, as a share of the thickness: 0 is a "
-                    "bevel outside, 1 a bevel inside. Units: none.",
-                    prm,
-                    Double(0., 1.));
-      add_parameter("Tip angle",
-                    tip_angle,
-                    "The angle of the triangular tip's faces to the "
-                    "horizontal. Units: degrees.",
-                    prm,
-                    Double(1., 80.));
-      add_parameter("Shoulder bevel",
-                    shoulder_bevel,
-                    "The height by which the mesh raises the outer nodes of "
-                    "the tip, in widths of a cell there. It makes up for the "
-                    "resistance that cells at a sharp corner add, and vanishes "
-                    "as cells become smaller. Units: none.",
-                    prm,
-                    Double(0., 2.));
-      add_parameter("Lid thickness",
-                    lid_thickness,
-                    "The thickness of the lid that closes the top of a "
-                    "caisson; 0 leaves it open. Units: m.",
-                    prm,
-                    Double(0.));
+      add_choice(
+        *this,
+        "Tip",
+        tip,
+        {{"triangular", Tip::triangular}, {"flat", Tip::flat}},
+        "",
+        "The form of a caisson's tip is a wedge (triangular), or flat.");
+      add_parameter(
+        "Edge of the tip",
+        edge_of_tip,
+        "",
+        "The distance of the triangular tip's edge from the inner face of the "
+        "wall, as a share of the thickness: 0 is a bevel outside, 1 a bevel "
+        "inside.",
+        Double(0., 1.));
+      add_parameter(
+        "Tip angle",
+        tip_angle,
+        "degrees",
+        "The angle of the triangular tip's faces to the horizontal.",
+        Double(1., 80.));
+      add_parameter(
+        "Shoulder bevel",
+        shoulder_bevel,
+        "",
+        "The height by which the mesh raises the outer nodes of the tip, in "
+        "widths of a cell there. It makes up for the resistance that cells at "
+        "a sharp corner add, and vanishes as cells become smaller.",
+        Double(0., 2.));
+      add_parameter(
+        "Lid thickness",
+        lid_thickness,
+        "m",
+        "The thickness of the lid that closes the top of a caisson; 0 leaves "
+        "it open.",
+        Double(0.));
       add_initial_penetration(initial_penetration);
       parse_parameters_call_back.connect(
         [this]() { wall.read(wall_thickness); });
-    }
-
-    std::string
-    name() const override
-    {
-      return "caisson";
-    }
-
-    std::string
-    description() const override
-    {
-      return "a tube that is pushed into the soil";
     }
 
     void
@@ -95,7 +87,7 @@ namespace CaissonMPM
           to_text(outer_diameter) + " m. Reduce the thickness.");
       check_cells_across(cells_across, has_edge_in_middle() ? 2 : 1);
       check_tip();
-      wall.check(plain_wall(), tip_height(), lower_face_of_lid() - bottom());
+      wall.check(extent(), tip_height(), lower_face_of_lid() - bottom());
       if (has_lid() && lower_face_of_lid() < -round_off)
         throw BadInput("Rigid body/Lid thickness = " + to_text(lid_thickness) +
                        " m puts the lid's lower face at z = " +
@@ -124,28 +116,13 @@ namespace CaissonMPM
                        "Set it to 0, or Kind = caisson.");
     }
 
-    double
-    left() const override
+    BodyPart
+    extent() const override
     {
-      return right() - wall_thickness;
-    }
-
-    double
-    right() const override
-    {
-      return .5 * outer_diameter;
-    }
-
-    double
-    bottom() const override
-    {
-      return -initial_penetration;
-    }
-
-    double
-    top() const override
-    {
-      return skirt_length - initial_penetration;
+      return {.5 * outer_diameter - wall_thickness,
+              .5 * outer_diameter,
+              -initial_penetration,
+              skirt_length - initial_penetration};
     }
 
     double
@@ -192,7 +169,7 @@ namespace CaissonMPM
     BodyPart
     part(const unsigned int i) const override
     {
-      return wall.part(i, plain_wall());
+      return wall.part(i, extent());
     }
 
     bool
@@ -210,7 +187,7 @@ namespace CaissonMPM
     double
     left_at_top() const override
     {
-      return wall.uppermost(plain_wall()).left;
+      return wall.uppermost(extent()).left;
     }
 
     bool
@@ -278,13 +255,6 @@ namespace CaissonMPM
       triangular,
       flat
     };
-
-    /** Without steps and rings. */
-    BodyPart
-    plain_wall() const
-    {
-      return {left(), right(), bottom(), top()};
-    }
 
     bool
     has_edge_in_middle() const

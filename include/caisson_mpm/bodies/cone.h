@@ -20,25 +20,15 @@ namespace CaissonMPM
   {
   public:
     Cone()
-      : Cone(60.)
+      : Cone("cone",
+             "a cone on the axis with its point down and a shaft above",
+             60.)
     {
       add_parameter("Apex angle",
                     apex_angle,
-                    "The full angle of a cone at its point. Units: degrees.",
-                    prm,
+                    "degrees",
+                    "The full angle of a cone at its point.",
                     dealii::Patterns::Double(20., 170.));
-    }
-
-    std::string
-    name() const override
-    {
-      return "cone";
-    }
-
-    std::string
-    description() const override
-    {
-      return "a cone on the axis with its point down and a shaft above";
     }
 
     void
@@ -51,28 +41,13 @@ namespace CaissonMPM
                        to_text(tip_height()) + " m.");
     }
 
-    double
-    left() const override
+    BodyPart
+    extent() const override
     {
-      return 0.;
-    }
-
-    double
-    right() const override
-    {
-      return .5 * outer_diameter;
-    }
-
-    double
-    bottom() const override
-    {
-      return -initial_penetration;
-    }
-
-    double
-    top() const override
-    {
-      return length - initial_penetration;
+      return {0.,
+              .5 * outer_diameter,
+              -initial_penetration,
+              length - initial_penetration};
     }
 
     double
@@ -115,8 +90,11 @@ namespace CaissonMPM
 
   protected:
     /** A cone of this full angle, in degrees, that declares no entry for it. */
-    explicit Cone(const double apex_angle)
-      : apex_angle(apex_angle)
+    Cone(const std::string &name,
+         const std::string &description,
+         const double       apex_angle)
+      : BodyShape(name, description)
+      , apex_angle(apex_angle)
     {
       add_outer_diameter(outer_diameter);
       add_skirt_length(length);

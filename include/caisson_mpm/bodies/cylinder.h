@@ -16,46 +16,20 @@ namespace CaissonMPM
   {
   public:
     Cylinder()
+      : BodyShape(
+          "cylinder",
+          "on the axis, as high as the mesh, with a radius that grows by "
+          "Velocity")
     {
       add_outer_diameter(outer_diameter);
       add_cells_across(cells_across);
     }
 
-    std::string
-    name() const override
+    BodyPart
+    extent() const override
     {
-      return "cylinder";
-    }
-
-    std::string
-    description() const override
-    {
-      return "on the axis, as high as the mesh, with a radius that grows by "
-             "Velocity";
-    }
-
-    double
-    left() const override
-    {
-      return 0.;
-    }
-
-    double
-    right() const override
-    {
-      return .5 * outer_diameter;
-    }
-
-    double
-    bottom() const override
-    {
-      return -std::numeric_limits<double>::infinity();
-    }
-
-    double
-    top() const override
-    {
-      return std::numeric_limits<double>::infinity();
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      return {0., .5 * outer_diameter, -infinity, infinity};
     }
 
     double

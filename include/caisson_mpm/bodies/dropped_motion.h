@@ -29,19 +29,6 @@ namespace CaissonMPM
   public:
     DroppedMotion();
 
-    std::string
-    name() const override
-    {
-      return "dropped";
-    }
-
-    std::string
-    description() const override
-    {
-      return "weight and suction accelerate the body, and the soil slows it "
-             "down";
-    }
-
     void
     start() override;
 

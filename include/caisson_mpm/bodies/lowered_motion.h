@@ -24,18 +24,6 @@ namespace CaissonMPM
   public:
     LoweredMotion();
 
-    std::string
-    name() const override
-    {
-      return "lowered";
-    }
-
-    std::string
-    description() const override
-    {
-      return "weight and suction let the body sink until the soil carries it";
-    }
-
     void
     start() override;
 

@@ -13,20 +13,8 @@ namespace CaissonMPM
   {
   public:
     Pile()
-      : Cone(180.)
+      : Cone("pile", "a closed cylinder on the axis with a flat base", 180.)
     {}
-
-    std::string
-    name() const override
-    {
-      return "pile";
-    }
-
-    std::string
-    description() const override
-    {
-      return "a closed cylinder on the axis with a flat base";
-    }
 
     double
     tip_height() const override

@@ -20,18 +20,6 @@ namespace CaissonMPM
   public:
     PrescribedMotion();
 
-    std::string
-    name() const override
-    {
-      return "prescribed";
-    }
-
-    std::string
-    description() const override
-    {
-      return "the velocity is a given function of time";
-    }
-
     /** Return the velocity of the entries, before it is slowed down. */
     double
     usual_velocity() const override;

@@ -4,6 +4,7 @@
 #ifndef caisson_mpm_bodies_rigid_body_h
 #define caisson_mpm_bodies_rigid_body_h
 
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/body_motion.h>
 #include <caisson_mpm/bodies/body_shape.h>
@@ -23,7 +24,7 @@ namespace CaissonMPM
    * Without a body (Kind = none) the shape contains nothing and the motion
    * rests. Not collective.
    */
-  class RigidBody : public dealii::ParameterAcceptor
+  class RigidBody : public Section
   {
   public:
     RigidBody();
@@ -34,7 +35,7 @@ namespace CaissonMPM
 
     /** Report which entries of the section have no effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** See BodyShape::refine(). */
     void

@@ -7,10 +7,9 @@
 #define caisson_mpm_checks_verification_h
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/output/records.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
 #include <vector>
@@ -35,7 +34,7 @@ namespace CaissonMPM
    * The values are those of the points of all ranks, on the first one; not
    * collective.
    */
-  class Verification : public dealii::ParameterAcceptor
+  class Verification : public Section
   {
   public:
     Verification();

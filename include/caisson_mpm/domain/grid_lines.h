@@ -23,12 +23,12 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/cell_tree.h>
 #include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/materials/soil.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -48,7 +48,7 @@ namespace CaissonMPM
    * that all ranks know all lines; there is no mesh, and nothing is collective.
    * place() comes first, once; after it the lines do not change.
    */
-  class GridLines : public dealii::ParameterAcceptor
+  class GridLines : public Section
   {
   public:
     enum class Zone : unsigned char
@@ -84,7 +84,7 @@ namespace CaissonMPM
 
     /** Report which entries the other choices leave without effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /**
      * Place the lines for the body and its whole travel, from -uplift to

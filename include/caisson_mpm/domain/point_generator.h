@@ -5,11 +5,11 @@
 #define caisson_mpm_domain_point_generator_h
 
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 
 namespace CaissonMPM
 {
@@ -25,7 +25,7 @@ namespace CaissonMPM
    * positions a point lies elsewhere in its part, always at the same place for
    * the same seed.
    */
-  class PointGenerator : public dealii::ParameterAcceptor
+  class PointGenerator : public Section
   {
   public:
     PointGenerator();
@@ -36,7 +36,7 @@ namespace CaissonMPM
 
     /** Report which entries the other choices leave without effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /**
      * Create all points, with the soil's initial stress. Those that @p points

@@ -4,8 +4,9 @@
 #ifndef caisson_mpm_materials_profile_h
 #define caisson_mpm_materials_profile_h
 
+#include <caisson_mpm/base/section.h>
+
 #include <deal.II/base/function_parser.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/patterns.h>
 
 #include <memory>
@@ -108,19 +109,21 @@ namespace CaissonMPM
 
   /** Declare an entry that sets @p profile, a member of @p owner; its default
    * is the number that it has now. */
-  void
-  add_profile(dealii::ParameterAcceptor &owner,
-              const std::string         &entry,
-              Profile                   &profile,
-              const std::string         &text);
+  EntryRecord &
+  add_profile(Section           &owner,
+              const std::string &entry,
+              Profile           &profile,
+              const std::string &unit,
+              const std::string &text);
 
   /** The same, for an entry that may also read @p word: then there is no
    * profile, and so it is by default. @p old_value: see WordOrNumber. */
-  void
-  add_word_or_profile(dealii::ParameterAcceptor           &owner,
+  EntryRecord &
+  add_word_or_profile(Section                             &owner,
                       const std::string                   &entry,
                       std::unique_ptr<Profile>            &profile,
                       const std::string                   &word,
+                      const std::string                   &unit,
                       const std::string                   &text,
                       const dealii::Patterns::PatternBase &pattern,
                       const std::optional<double>          old_value = {});

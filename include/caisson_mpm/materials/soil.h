@@ -6,6 +6,7 @@
 #define caisson_mpm_materials_soil_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil_layer.h>
 
@@ -20,7 +21,7 @@ namespace CaissonMPM
    * they are: material i is that of the number i in the points and kernels.
    * Nothing here is collective.
    */
-  class Soil : public dealii::ParameterAcceptor
+  class Soil : public Section
   {
   public:
     /** No soil has more; each needs a row of cells. */
@@ -88,7 +89,7 @@ namespace CaissonMPM
 
     /** Report which entries of the section have no effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** Name the permeabilities of all layers, which have no effect. */
     void
@@ -206,7 +207,7 @@ namespace CaissonMPM
     usual_mass_scaling(double depth) const;
 
     /** The entry is in section Time, because it lengthens the time step. */
-    struct MassScaling : dealii::ParameterAcceptor
+    struct MassScaling : Section
     {
       MassScaling();
 

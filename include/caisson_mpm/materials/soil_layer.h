@@ -5,10 +5,9 @@
 #define caisson_mpm_materials_soil_layer_h
 
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/materials/profile.h>
 #include <caisson_mpm/materials/soil_material.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <map>
 #include <memory>
@@ -22,7 +21,7 @@ namespace CaissonMPM
    * declares the entries of all material laws (kernels/laws.h) and hands those
    * of the layer's own law on.
    */
-  class SoilLayer : public dealii::ParameterAcceptor
+  class SoilLayer : public Section
   {
   public:
     /** @p index counts from 0. */
@@ -42,7 +41,7 @@ namespace CaissonMPM
 
     /** Name the entries of laws other than the layer's own. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** "Soil/Layer k", with k from 1. */
     std::string
@@ -145,6 +144,9 @@ namespace CaissonMPM
 
     /** The entries of all laws by name, in the units of the entries. */
     std::map<std::string, Profile> values;
+
+    /** The paths of the entries of a user material. */
+    std::vector<std::string> user_entries;
   };
 } // namespace CaissonMPM
 

@@ -7,15 +7,15 @@
 #define caisson_mpm_operators_body_force_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 
 namespace CaissonMPM
 {
   /** The nodal force of the entry "Loads/Body force". */
-  class BodyForce : public NodalForce, public dealii::ParameterAcceptor
+  class BodyForce : public NodalForce, public Section
   {
   public:
     BodyForce();

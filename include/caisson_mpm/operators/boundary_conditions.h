@@ -7,10 +7,9 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/kernels/forward.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
 #include <string>
@@ -40,7 +39,7 @@ namespace CaissonMPM
    * precedence over the sides and over the contact. Each rank treats all nodes
    * that it knows. Not collective.
    */
-  class BoundaryConditions : public dealii::ParameterAcceptor
+  class BoundaryConditions : public Section
   {
   public:
     BoundaryConditions();
@@ -50,7 +49,7 @@ namespace CaissonMPM
 
     /** Report which entries the other choices leave without effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** Whether there is a region whose velocity is prescribed. */
     bool

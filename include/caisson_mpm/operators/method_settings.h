@@ -6,9 +6,8 @@
 #define caisson_mpm_operators_method_settings_h
 
 #include <caisson_mpm/base/parameter_origins.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/kernels/settings.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <optional>
 #include <string>
@@ -45,7 +44,7 @@ namespace CaissonMPM
   /**
    * The choices of the method. Constant during a run; every rank has the same.
    */
-  class MethodSettings : public dealii::ParameterAcceptor
+  class MethodSettings : public Section
   {
   public:
     MethodSettings();
@@ -56,7 +55,7 @@ namespace CaissonMPM
 
     /** Report which entries the other choices leave without effect. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** Choose the velocities that strain the points. MUSL is unstable beside
      * cells whose inertia is lumped: where masses are scaled selectively, it is

@@ -29,7 +29,7 @@ namespace CaissonMPM
 
   /**
    * A force on the nodes. A derived class declares its own entries, if it is a
-   * ParameterAcceptor, and says what it adds; this class keeps the forces of
+   * Section, and says what it adds; this class keeps the forces of
    * the step and finds their work. The forces are those that the points of this
    * rank bring, to all nodes that it knows; the sum over ranks is made once for
    * all of them. Not collective.

@@ -12,10 +12,10 @@
 #define caisson_mpm_operators_surrounding_pressure_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 
 namespace CaissonMPM
 {
@@ -24,8 +24,7 @@ namespace CaissonMPM
    * pressure field -p, the same at all nodes. A pressure that differs from node
    * to node takes the same kernel with its own nodal values.
    */
-  class SurroundingPressure : public NodalForce,
-                              public dealii::ParameterAcceptor
+  class SurroundingPressure : public NodalForce, public Section
   {
   public:
     SurroundingPressure();

@@ -22,13 +22,12 @@
 
 #include <caisson_mpm/base/intervals.h>
 #include <caisson_mpm/base/run_totals.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/materials/soil.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
 #include <array>
@@ -40,7 +39,7 @@
 
 namespace CaissonMPM
 {
-  class TimeStep : public dealii::ParameterAcceptor
+  class TimeStep : public Section
   {
   public:
     TimeStep();

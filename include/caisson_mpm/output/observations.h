@@ -17,10 +17,9 @@
 #define caisson_mpm_output_observations_h
 
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/output/point_quantities.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
 #include <vector>
@@ -54,7 +53,7 @@ namespace CaissonMPM
    * The values are those of the points of all ranks, on the first one; not
    * collective.
    */
-  class Observations : public dealii::ParameterAcceptor
+  class Observations : public Section
   {
   public:
     Observations();

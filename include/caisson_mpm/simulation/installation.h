@@ -4,11 +4,10 @@
 #ifndef caisson_mpm_simulation_installation_h
 #define caisson_mpm_simulation_installation_h
 
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/body_motion.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <optional>
 #include <string>
@@ -23,7 +22,7 @@ namespace CaissonMPM
    * state. The files of the other run are only read, so that any number of runs
    * can go on after it. The same on all ranks; not collective.
    */
-  class Installation : public dealii::ParameterAcceptor
+  class Installation : public Section
   {
   public:
     Installation();

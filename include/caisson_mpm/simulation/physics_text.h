@@ -38,12 +38,6 @@ namespace CaissonMPM
    * there. */
   std::string
   value_of(const std::string &path, const std::string &physics);
-
-  /** Whether an entry of physics() decides neither the state of the ground nor
-   * the mesh in which it is, so that a run that goes on after an installation
-   * may have another value. */
-  bool
-  may_change_after_installation(const std::string &path);
 } // namespace CaissonMPM
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/output_directory.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/wall_forces.h>
@@ -15,8 +16,6 @@
 #include <caisson_mpm/output/wall_file.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
 #include <caisson_mpm/simulation/run_report.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <chrono>
 #include <functional>
@@ -32,7 +31,7 @@ namespace CaissonMPM
    * and is not collective; all other functions are. The first rank prints and
    * writes.
    */
-  class Recorder : public dealii::ParameterAcceptor
+  class Recorder : public Section
   {
   public:
     explicit Recorder(const RecordedParts &parts);

@@ -5,10 +5,9 @@
 #define caisson_mpm_simulation_schedule_h
 
 #include <caisson_mpm/base/run_totals.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/simulation/clock.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <optional>
 #include <string>
@@ -38,7 +37,7 @@ namespace CaissonMPM
    *
    * The same on all ranks; not collective.
    */
-  class Schedule : public dealii::ParameterAcceptor
+  class Schedule : public Section
   {
   public:
     /** What is to be done after a step. */
@@ -56,7 +55,7 @@ namespace CaissonMPM
 
     /** Report which entries have no effect without a body. */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /** Return the smallest and the largest travel of the body that the mesh
      * must be able to hold. Units: m. */

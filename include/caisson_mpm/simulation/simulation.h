@@ -8,6 +8,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/run_totals.h>
+#include <caisson_mpm/base/section.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/timing.h>
 #include <caisson_mpm/bodies/rigid_body.h>
@@ -31,8 +32,6 @@
 #include <caisson_mpm/simulation/schedule.h>
 #include <caisson_mpm/water/pore_water.h>
 
-#include <deal.II/base/parameter_acceptor.h>
-
 #include <array>
 #include <memory>
 #include <optional>
@@ -52,7 +51,7 @@ namespace CaissonMPM
    * Each rank works on the cells that it owns and the points in them. Sums over
    * nodes, points and steps are of one rank; see RunTotals.
    */
-  class Simulation : public dealii::ParameterAcceptor
+  class Simulation : public Section
   {
   public:
     explicit Simulation(const MPI_Comm communicator);
@@ -68,7 +67,7 @@ namespace CaissonMPM
     /** Report which entries have no effect in this scene; before or after
      * set_up(). */
     void
-    name_unused_entries(ParameterOrigins &origins) const;
+    name_unused_entries(ParameterOrigins &origins) const override;
 
     /**
      * Check all parameters and set up the mesh and the points, those of the

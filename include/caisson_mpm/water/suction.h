@@ -89,6 +89,8 @@ namespace CaissonMPM
 
   private:
     void
+    add_entries_of_pump();
+    void
     add_entries_of_water_beneath_lid();
     void
     fill_tables();
