@@ -52,7 +52,8 @@ namespace CaissonMPM
           "The coefficient of friction between soil and the body's " + name +
             ", which is the tangent of the friction angle, instead of that "
             "angle.",
-          Patterns::Double(0.));
+          Patterns::Double(0.))
+          .influence = Influence::motion;
         add_parameter("Adhesion of the " + name,
                       adhesion[s],
                       "Pa",
