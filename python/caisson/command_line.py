@@ -17,8 +17,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn, TextIO, cast
 
-from caisson import needed, paths
-from caisson import disk
+from caisson import disk, needed, paths
 from caisson.disk import InputError
 from caisson.terminal import PlainText
 

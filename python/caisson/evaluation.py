@@ -190,10 +190,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
         return {name: most, DEPTH: depth}
 
     total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
-    found: dict[str, Any] = {
-        DEPTH: deepest,
-        "largest_force": largest(total),
-    }
+    found: dict[str, Any] = {DEPTH: deepest, "largest_force": largest(total)}
     if SUCTION in way.columns:
         if (rest := rest_of_run(run.history)) is not None:
             found["rest_penetration_m"] = rest

@@ -12,9 +12,8 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from caisson import run_shape
+from caisson import disk, run_shape
 from caisson.lock import is_locked
-from caisson import disk
 from caisson.disk import InputError
 from caisson.shown import Units, units_of
 

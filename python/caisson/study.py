@@ -354,9 +354,7 @@ def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
 
 
 def execute(
-    shares: Sequence[Share],
-    again: bool = False,
-    time_limit: float | None = None,
+    shares: Sequence[Share], again: bool = False, time_limit: float | None = None
 ) -> None:
     """Run all that are not complete, share by share, in each of them the longest first.
     A run that cannot be made says why in its trouble. A bar, or in a log file a line

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.template import template
-from caisson import report
-from caisson import plot, study_command
+from caisson import disk, plot, report, study_command
 from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
@@ -19,7 +18,6 @@ from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson import disk
 from caisson.design.interpretation import Interpretation
 from caisson.design.reasons import text_of
 

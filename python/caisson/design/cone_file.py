@@ -18,11 +18,9 @@ from caisson.disk import InputError
 from caisson.terminal import printable
 from caisson.design.cone_options import How
 from caisson.design.cone_rules import RANGES, Readings
-from caisson.design.cone_table import Rows, Table, cell_of, refuse, value_of
-from caisson.design.cone_table import COMMA
+from caisson.design.cone_table import cell_of, COMMA, refuse, Rows, Table, value_of
 from caisson.design.cone_words import NEEDED, QUANTITIES
-from caisson.design.quantity import NUMBER, parts_of
-from caisson.design.quantity import value_of as quantity_of
+from caisson.design.quantity import NUMBER, parts_of, value_of as quantity_of
 
 EVERY = ("depth", "qc", "fs", "u2", "rf")  # the last in place of fs
 ARCHIVE = b"PK\x03\x04"  # a workbook begins with

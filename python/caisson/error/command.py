@@ -36,10 +36,7 @@ SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
 CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
-QUIET = {
-    "Output/Frame interval": "never",
-    "Output/Frame penetrations": "",
-}
+QUIET = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 # runs with other numerics on the coarsest mesh, and their cost over one without
 INERTIA, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
 COST = {INERTIA: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}

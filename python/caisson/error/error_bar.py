@@ -35,12 +35,11 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, table
+from caisson import curves, disk, table
 from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
 from caisson.study import Options, Study, StudyError, StudyRun
-from caisson import disk
 from caisson.error.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"

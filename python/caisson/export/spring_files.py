@@ -4,8 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson import table
-from caisson import disk
+from caisson import disk, table
 from caisson.template import template
 from caisson.export.springs import SMALL, STILL_GROWS, WALLS, Springs
 

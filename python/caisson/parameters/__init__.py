@@ -59,14 +59,7 @@ from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import LATIN, runs_of
 from caisson.paths import short
 from caisson.runner import RunError
-from caisson.study import (
-    Options,
-    Study,
-    StudyError,
-    StudyRun,
-    check_is_own,
-    file_name,
-)
+from caisson.study import Options, Study, StudyError, StudyRun, check_is_own, file_name
 from caisson.design import cone
 from caisson.disk import InputError
 

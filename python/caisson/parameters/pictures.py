@@ -208,13 +208,7 @@ def draw_correlations(axes: Axes, found: list[Effect], n: int) -> None:
             fontsize=9,
         )
     limit = effects.chance(n)
-    axes.axvspan(
-        -limit,
-        limit,
-        color="0.85",
-        zorder=0,
-        label="range of chance (95 %)",
-    )
+    axes.axvspan(-limit, limit, color="0.85", zorder=0, label="range of chance (95 %)")
     axes.set_xlim(-1.18, 1.18)
     axes.set_xlabel("rank correlation (Spearman)")
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson import curve, curves
+from caisson import curve, curves, disk
 from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.paths import distinct_ends, seen
@@ -23,7 +23,6 @@ from caisson.plot.small import in_units, over_depth
 from caisson.design.quantity import length
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_columns
-from caisson import disk
 from caisson.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")

@@ -8,12 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson import curves
+from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import band, theory
 from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
-from caisson import disk
 
 COLORS = {
     "total": "black",

@@ -8,10 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.evaluation import rest_of_run
-from caisson.plot import limits
-from caisson.plot import suction_methods as methods
-from caisson.plot import band as between
-from caisson.plot import theory
+from caisson.plot import band as between, limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.plot.small import fade, in_units, over_depth, with_note

@@ -8,11 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from caisson import error_bounds
+from caisson import disk, error_bounds
 from caisson.plot import add_method_arguments, draw, keep_methods
 from caisson.results import Results, ResultsError
 from caisson.disk import InputError
-from caisson import disk
 
 NAME = "report.html"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

@@ -9,17 +9,8 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
-from caisson.plot import design, suction_methods, theory
+from caisson.plot import design, forces, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
-from caisson.plot.forces import (
-    COLORS,
-    WATER_COLOR,
-    WITH_WATER,
-    column_of,
-    has_suction,
-    penetration,
-    smooth,
-)
 from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
@@ -94,7 +85,7 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
     by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
     forces of jacking."""
     found: list[Curve] = []
-    if has_suction(run):
+    if forces.has_suction(run):
         return found
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
@@ -126,21 +117,25 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     Houlsby & Byrne."""
     history, depth = run.history, run.history["penetration_m"]
     found = []
-    for name, color in COLORS.items():
-        bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
+    for name, color in forces.COLORS.items():
+        bar = error_band(
+            run.error_bounds, forces.column_of(name).removesuffix("_N"), "N"
+        )
         if bar is not None:
             at, low, high = down_to(end, *bar)
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
-    found += range_curve(run, column_of("total"), "total")
-    for name, color in COLORS.items():
-        if column_of(name) in history:
-            force = smooth(depth, history[column_of(name)])
+    found += range_curve(run, forces.column_of("total"), "total")
+    for name, color in forces.COLORS.items():
+        if forces.column_of(name) in history:
+            force = forces.smooth(depth, history[forces.column_of(name)])
             found += own(name, color, force, depth, end)
     if (total := history.get(curves.WITH_WATER)) is not None:
-        mean = smooth(depth, total)
-        found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
+        mean = forces.smooth(depth, total)
+        found.append(
+            line(forces.WITH_WATER, forces.WATER_COLOR, mean, depth, thick=True)
+        )
     return found
 
 
@@ -293,7 +288,7 @@ def figures_of(
     """Return the interactive figures: id, title, axis, note and curves that have
     points; the suction, where there is any, before the forces. end: the depth where
     suction ends (m)."""
-    if penetration(run.history) is None:
+    if forces.penetration(run.history) is None:
         return []
     if is_pull(run):
         return [in_units(pull_figure(run), run.shown)]
@@ -332,7 +327,7 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     """
     history, scene = run.history, run.scene
     nothing: dict[str, Any] = {"heads": [], "rows": []}
-    if penetration(history) is None or not scene.get("wall_thickness_m"):
+    if forces.penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
     way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
@@ -389,7 +384,7 @@ def remarks_on_numbers(run: Results) -> list[str]:
                 f"Heave and room below the lid are not reliable: {share:.2g} % of the"
                 " volume that the plug gained is unaccounted for."
             )
-    if "total_force_N" in history and penetration(history) is not None:
+    if "total_force_N" in history and forces.penetration(history) is not None:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:
             rough = 100 * curves.roughness(depth, history["total_force_N"])

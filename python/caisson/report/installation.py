@@ -13,13 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import (
-    DEPTH,
-    GRADIENT,
-    at_depths,
-    rest_of_run,
-    sinks_on,
-)
+from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run, sinks_on
 from caisson.paths import INSTALLED
 from caisson.plot import design, limits
 from caisson.plot.forces import penetration

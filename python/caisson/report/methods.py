@@ -12,23 +12,9 @@ from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.plot.suction import CRITICAL
 from caisson.results import Results
-from caisson.design import suction_installation as installation
+from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
 from caisson.design.method import Forces
-from caisson.design.reasons import (
-    ASSUMED_CONE,
-    ByCone,
-    Compared,
-    Walls,
-    cause_by_cone,
-    of_cause,
-    of_cone,
-    of_houlsby_byrne,
-    of_undisturbed,
-    ratio_in_words,
-    relieved,
-    text_of,
-)
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
 from caisson.report.installation import needs_suction
@@ -88,7 +74,9 @@ def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
 
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
     """Return ratio_in_words() of each row."""
-    return [ratio_in_words(*map(float, row)) for row in zip(computed, low, high)]
+    return [
+        reasons.ratio_in_words(*map(float, row)) for row in zip(computed, low, high)
+    ]
 
 
 def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
@@ -102,7 +90,9 @@ def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str
 
     texts = [
         [
-            cell if isinstance(cell, str) else text_of(factor(head) * float(cell))
+            cell
+            if isinstance(cell, str)
+            else reasons.text_of(factor(head) * float(cell))
             for cell in values
         ]
         for head, values in columns.items()
@@ -166,7 +156,7 @@ def under_suction(
             cases = {
                 case: np.array(
                     [
-                        relieved(by_case(answer, case, i), x).total
+                        reasons.relieved(by_case(answer, case, i), x).total
                         for i, x in enumerate(left)
                     ]
                 )
@@ -181,7 +171,10 @@ def or_piping(values: np.ndarray) -> list[str]:
     suction exceeds its critical one."""
     known = np.flatnonzero(np.isfinite(values))
     last = int(known[-1]) if len(known) else -1
-    return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
+    return [
+        reasons.text_of(float(v)) if i <= last else NO_ANSWER
+        for i, v in enumerate(values)
+    ]
 
 
 def suction_tables(
@@ -214,7 +207,7 @@ def suction_tables(
 # ------------------------------------------------------------------ why
 
 
-def compared(run: Results, h: float) -> Compared | None:
+def compared(run: Results, h: float) -> reasons.Compared | None:
     """Return the run beside Houlsby & Byrne at a depth, None where the method has no
     answer there or the run lacks a force."""
     site, at = theory.site_of(run), np.array([h])
@@ -236,14 +229,14 @@ def compared(run: Results, h: float) -> Compared | None:
         flow = installation.seepage(
             caisson, max(suction, 0.0), h, byrne.permeability_ratio
         )
-    ratio = ratio_in_words(mine, *ends) if ends else ""
+    ratio = reasons.ratio_in_words(mine, *ends) if ends else ""
     if not ratio:
         return None
     low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
     frictions = computed.outer_friction, caisson.outer_friction(h, False, flow)
     walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
-    return Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
+    return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
 
 
 def why_of(run: Results, at: np.ndarray) -> str:
@@ -253,7 +246,7 @@ def why_of(run: Results, at: np.ndarray) -> str:
     found = next((answer for answer in answers if answer), None)
     if found is None:
         return ""
-    return of_houlsby_byrne(found)
+    return reasons.of_houlsby_byrne(found)
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
@@ -281,26 +274,28 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             force = parts[bound].total
             if suctions:
                 force = float(suctions[suction_methods.LOWER_BOUND][0])
-            found.append(of_undisturbed(h, mine, force, what))
+            found.append(reasons.of_undisturbed(h, mine, force, what))
         if left is not None and answer.method.key == "senders_randolph":
-            low, high = relieved(low, left), relieved(high, left)
+            low, high = reasons.relieved(low, left), reasons.relieved(high, left)
             cases = suction_methods.CONE_LOW, suction_methods.CONE_HIGH
             needed = [float(suctions[case][0]) for case in cases]
             ends = mine, needed[0], needed[1]
         elif answer.method.bound or left is not None or answer.method.key == "clay":
             continue
         name = answer.name
-        by_cone = ByCone(name, h, what, ends, computed, low, high, left)
-        if sentence := of_cone(by_cone):
+        by_cone = reasons.ByCone(name, h, what, ends, computed, low, high, left)
+        if sentence := reasons.of_cone(by_cone):
             sentences.append(sentence)
-            causes[of_cause(cause_by_cone(by_cone), h, walls_of(run, h))] = None
+            causes[
+                reasons.of_cause(reasons.cause_by_cone(by_cone), h, walls_of(run, h))
+            ] = None
     sentences += causes
     if any(sentences) and any(answer.assumed for answer in answers):
-        sentences.append(ASSUMED_CONE)
+        sentences.append(reasons.ASSUMED_CONE)
     return [sentence for sentence in [*found, *sentences] if sentence]
 
 
-def walls_of(run: Results, h: float) -> Walls | None:
+def walls_of(run: Results, h: float) -> reasons.Walls | None:
     """Return the stress on the walls at the frame at a depth; None without one."""
     table, scene = run.walls, run.scene
     rows = np.abs(table.get("penetration_m", np.empty(0)) - h) < AT_DEPTH
@@ -319,7 +314,7 @@ def walls_of(run: Results, h: float) -> Walls | None:
         means.append(float(np.nansum(normal * area) / below))
     passive = [math.tan(math.radians(45 + angle / 2)) ** 2 for angle in angles]
     ends = [(min(values), max(values)) for values in (at_rest, passive)]
-    return Walls(means[0], means[1], ends[0], ends[1])
+    return reasons.Walls(means[0], means[1], ends[0], ends[1])
 
 
 def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:

@@ -36,35 +36,15 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from caisson import density_law
+from caisson import density_law, disk
 from caisson.band import member_of
-from caisson.design import cone_texts
+from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
-from caisson.suggest import band, clay, cone, sand
+from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import (
-    DEFAULT_ROW,
-    LEVELS,
-    Body,
-    frames_of,
-    mesh_of,
-    start_of,
-    to_two_digits,
-)
 from caisson.suggest.soil import CAM_CLAY, layers_of
-from caisson.suggest.walls import (
-    angle_entry,
-    angle_of,
-    is_by_density,
-    is_clay,
-    is_quick_clay,
-    wall_friction_of,
-    with_walls,
-)
-from caisson import disk
-from caisson.design import cone_file, cone_options, interpretation
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -140,7 +120,7 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         help="of sand given by its density or a cone test: by density and stress"
         " (default), hypoplastic, or with one friction angle (cone test only)",
     )
-    add("--error", type=percent, choices=LEVELS, default=10, help="wanted, in %%")
+    add("--error", type=percent, choices=sizes.LEVELS, default=10, help="wanted, in %%")
 
 
 def percent(text: str) -> int:
@@ -211,9 +191,9 @@ def refuse_quick_clay(layers: Sequence[Layer]) -> None:
     """Refuse clay with the strength of a quick test where water flows: it would flow
     through it as through sand. Raises SuggestError."""
     for i, layer in enumerate(layers, 1):
-        if is_quick_clay(layer):
+        if walls.is_quick_clay(layer):
             raise SuggestError(
-                f"layer {i}: phi = {angle_of(layer)} beside a cohesion is no drained"
+                f"layer {i}: phi = {walls.angle_of(layer)} beside a cohesion is no drained"
                 " strength, and with --weight water would flow through it as through"
                 f" sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
             )
@@ -222,7 +202,7 @@ def refuse_quick_clay(layers: Sequence[Layer]) -> None:
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers with a permeability, which follows the density in sand by
     density. Raises SuggestError where only some layers of sand have one."""
-    tight = [is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
+    tight = [walls.is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
     sands = [bool(x.value("Permeability")) for x, t in zip(layers, tight) if not t]
     if any(sands) and not all(sands):
         raise SuggestError(
@@ -237,7 +217,7 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     found = []
     for layer, is_tight in zip(layers, tight):
         added = [] if layer.value("Permeability") else [assumed[is_tight]]
-        if is_by_density(layer) and not layer.value(name):
+        if walls.is_by_density(layer) and not layer.value(name):
             added.append(follows)
         found.append(Layer(layer.top, [*layer.entries, *added]))
     return found
@@ -251,7 +231,7 @@ def flow_of(
     water. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
-    clays = list(map(is_clay, layers))
+    clays = list(map(walls.is_clay, layers))
     of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
     if all(c or e for c, e in zip(clays, of_effective_stress)):
         level = "undrained" if any(of_effective_stress) else "drained"
@@ -277,13 +257,13 @@ def flow_of(
 def begin_of(options: argparse.Namespace) -> float:
     """Return where the run begins (m)."""
     given = options.embedment
-    return start_of(options.skirt) if given is None else float(given)
+    return sizes.start_of(options.skirt) if given is None else float(given)
 
 
 def end_of(options: argparse.Namespace) -> float:
     """Return where the run ends (m): without --penetration where there is room left
     for the soil that rises inside."""
-    return float(options.penetration or options.skirt - start_of(options.skirt))
+    return float(options.penetration or options.skirt - sizes.start_of(options.skirt))
 
 
 def law_of(options: argparse.Namespace) -> str:
@@ -331,7 +311,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
     relative densities of each layer; clay becomes stronger in step. Raises SuggestError
     where a layer has neither."""
     sands = [layer for layer in layers if not clay.is_undrained(layer)]
-    by_density = bool(sands) and all(map(is_by_density, sands))
+    by_density = bool(sands) and all(map(walls.is_by_density, sands))
     quantity = "relative density" if by_density else "friction angle"
     changes = CHANGES_OF_DENSITY if by_density else CHANGES
     follows = options.wall_friction is None and len(sands) == len(layers)
@@ -344,7 +324,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
                 entries |= strength_after(f"Soil/Layer {i}", layer, factor)
                 continue
             change_of = density_after if by_density else angle_after
-            name = density_law.DENSITY if by_density else angle_entry(layer)
+            name = density_law.DENSITY if by_density else walls.angle_entry(layer)
             numbers.append(change_of(layer, change))
             entries[f"Soil/Layer {i}/{name}"] = numbers[-1]
         if follows:
@@ -375,7 +355,7 @@ def strength_after(head: str, layer: Layer, factor: float) -> dict[str, float | 
 def angle_after(layer: Layer, change: float) -> float:
     """Return the friction angle of a layer with a change. Raises SuggestError."""
     try:
-        angle = float("" if is_clay(layer) else angle_of(layer)) + change
+        angle = float("" if walls.is_clay(layer) else walls.angle_of(layer)) + change
     except ValueError as error:
         raise SuggestError("--study: a layer has no friction angle") from error
     if not 0 < angle < 60:
@@ -394,16 +374,16 @@ def scene_of(
 ) -> str:
     """Return the text of the scene of a file. of_band: which estimate it is, with a
     comma before it."""
-    level = LEVELS[options.error]
-    body = Body(options.diameter, options.skirt, options.wall)
+    level = sizes.LEVELS[options.error]
+    body = sizes.Body(options.diameter, options.skirt, options.wall)
     start, end = begin_of(options), end_of(options)
-    mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
+    mesh = sizes.mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
     size = units_for(inf, inf, body.skirt)
-    ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
+    ramp = sizes.to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     deep = reached(options, layers)
-    soil = with_walls(
+    soil = walls.with_walls(
         clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
     )
     return template(HERE / "scene.prm.jinja").render(
@@ -416,15 +396,15 @@ def scene_of(
         start=start,
         end=end,
         ramp=ramp,
-        record=to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
+        record=sizes.to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
         velocity=VELOCITY,
-        wall_friction=wall_friction_of(options.wall_friction, deep),
+        wall_friction=walls.wall_friction_of(options.wall_friction, deep),
         interfaces=len(deep) > 1,
-        is_clay=all(map(is_clay, deep)),
-        smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
-        default_row=DEFAULT_ROW,
+        is_clay=all(map(walls.is_clay, deep)),
+        smooth_tip=all(map(walls.is_clay, deep)) or options.wall_friction == 0,
+        default_row=sizes.DEFAULT_ROW,
         directory=f"results/{file.stem}",
-        frames=frames_of(start, end),
+        frames=sizes.frames_of(start, end),
         **flow_of(options, layers, soil),
     )
 
@@ -527,7 +507,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
         for layer in layers:
             if layer.warning:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
-        if options.law and not any(map(is_by_density, layers)):
+        if options.law and not any(map(walls.is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, options.file)}
     ends = ends_of(options, layers, known, found) if estimates else {}

@@ -27,13 +27,7 @@ from caisson.suggest.entry import ASSUMPTION, Entry, Layer
 from caisson.design.cone_estimates import CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY
 from caisson.design.expression import value_at
-from caisson.design.ground import (
-    CONE_FACTOR,
-    GRAVITY,
-    WATER,
-    porosity_of,
-    unit_weight_of,
-)
+from caisson.design import ground
 
 POISSON = "0.45"  # hardly any change of volume, as without drainage
 ADHESION_FACTOR = "0.5"
@@ -84,14 +78,14 @@ def weight_of(layer: Layer, depth: float) -> float:
         porosity = void_ratio / (1 + void_ratio)
     if porosity is None:
         return USUAL_WEIGHT
-    return (1 - porosity) * (grains * GRAVITY - WATER)
+    return (1 - porosity) * (grains * ground.GRAVITY - ground.WATER)
 
 
 def wet_weight_of(strength: float, total_stress: float) -> float:
     """Return the unit weight of wet clay (N/m3)."""
-    tip = np.array([CONE_FACTOR * strength + total_stress])
+    tip = np.array([ground.CONE_FACTOR * strength + total_stress])
     friction = np.array([float(ADHESION_FACTOR) * strength])
-    return max(float(unit_weight_of(tip, friction)[0]), LIGHTEST)
+    return max(float(ground.unit_weight_of(tip, friction)[0]), LIGHTEST)
 
 
 @dataclass(frozen=True)
@@ -122,9 +116,11 @@ def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]
     for _ in range(ROUNDS):
         stress = reach.stress(reach.middle, weight)
         strength = strength_of(layer, reach.middle, stress)
-        weight = wet_weight_of(strength, stress + WATER * reach.middle) - WATER
+        weight = (
+            wet_weight_of(strength, stress + ground.WATER * reach.middle) - ground.WATER
+        )
     grains = number_of(layer, "Solid density", reach.middle) or GRAINS
-    porosity = porosity_of(weight / 1e3, grains, False)
+    porosity = ground.porosity_of(weight / 1e3, grains, False)
     why = f"{weight / 1e3:.2g} kN/m3 in water by s_u (Robertson & Cabal 2010)"
     return weight, [Entry("Porosity", f"{porosity:.3f}", f"{ASSUMPTION}: {why}")]
 

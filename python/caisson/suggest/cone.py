@@ -123,9 +123,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         return [
             Entry("Law", BY_STRESS),
             Entry(
-                "Friction angle",
-                number(e.values[ANGLE].best),
-                remark(found, e, ANGLE),
+                "Friction angle", number(e.values[ANGLE].best), remark(found, e, ANGLE)
             ),
             Entry("Cohesion", "0", ASSUMPTION),
             Entry(

@@ -379,10 +379,7 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
 
 
 def layers_of(
-    texts: Iterable[str],
-    known: Mapping[str, str],
-    law: str,
-    change: Change = as_given,
+    texts: Iterable[str], known: Mapping[str, str], law: str, change: Change = as_given
 ) -> list[Layer]:
     """Return all layers. law: of sand by its density; change: what is given of each of
     them, before it is read. Raises SuggestError."""
