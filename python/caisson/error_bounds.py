@@ -24,32 +24,46 @@ BOUNDS = {"low": ("below", -1), "high": ("above", 1), "limit": ("shift", 1)}
 
 
 class Quantity(NamedTuple):
-    """A quantity of history.csv, and how columns of the error bar begin."""
+    """A quantity of history.csv that has an error bar: its name and unit there, how the
+    columns of the bar begin, and whether its errors are shares of it; tables show it in
+    shown_unit, times scale, with some digits."""
 
     name: str
     unit: str
     bar: str
-    is_relative: bool = False  # its errors are shares of it
+    is_relative: bool
+    shown_unit: str
+    scale: float
+    digits: int
 
     def column(self, bound: str = "") -> str:
         """Return its column in history.csv, or that of a bound."""
         return "_".join(filter(None, (self.name, bound, self.unit)))
 
-    def bar_column(self, part: str) -> str:
+    def bar_column(self, *parts: str) -> str:
         """Return its column in the file of errors."""
         unit = "" if self.is_relative else self.unit
-        return "_".join(filter(None, (self.bar, part, unit)))
+        return "_".join(filter(None, (self.bar, *parts, unit)))
+
+    def text(self, value: float) -> str:
+        """Return a value for a table."""
+        return f"{value * self.scale:.{self.digits}f}"
 
 
+FORCES = tuple(
+    Quantity(name, "N", name.split("_")[0], True, "kN", 1e-3, 0)
+    for name in ("tip_force", "inner_friction", "outer_friction", "total_force")
+)
 # The required suction crosses zero, where the weight no longer suffices, so that it and
 # what follows from it have absolute errors.
-QUANTITIES = (
-    Quantity("tip_force", "N", "tip", True),
-    Quantity("total_force", "N", "total", True),
-    Quantity("required_suction", "Pa", "required_suction"),
-    Quantity("exit_gradient_axis", "", "exit_gradient_axis"),
-    Quantity("plug_heave", "m", "plug_heave"),
+SUCTION = (
+    Quantity("required_suction", "Pa", "required_suction", False, "kPa", 1e-3, 2),
+    Quantity("exit_gradient_axis", "", "exit_gradient_axis", False, "", 1, 3),
+    Quantity("plug_heave", "m", "plug_heave", False, "mm", 1e3, 1),
 )
+QUANTITIES = {quantity.bar: quantity for quantity in FORCES + SUCTION}
+# those of which the bounds are kept with a run
+BOUNDED = [q for q in QUANTITIES.values() if not q.name.endswith("friction")]
 
 
 def beside(scene: Path) -> Path:
@@ -115,7 +129,7 @@ def bounds_of(history: Table, bar: Table) -> Table:
     rows = is_inside(bar, history[DEPTH])
     depth = history[DEPTH][rows]
     found = {DEPTH: depth}
-    for q in QUANTITIES:
+    for q in BOUNDED:
         if q.bar_column("below") in bar and q.column() in history:
             found[q.column()] = values = history[q.column()][rows]
             found |= changes(bar, q, values, depth)
@@ -129,7 +143,7 @@ def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
         return {}
     bar = read_table(run.directory / NAME)
     found: Table = {}
-    for q in QUANTITIES:
+    for q in BOUNDED:
         if q.column() in means:
             found |= changes(bar, q, means[q.column()], depth)
     inside = is_inside(bar, depth)

@@ -32,7 +32,7 @@ from caisson.runner import (
     read_parameters,
     set_options,
 )
-from caisson.error.error_bar import SUCTION
+from caisson.error_bounds import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule
@@ -186,7 +186,7 @@ class WindowedRun(Run):
     def write(self, results: Sequence[Results], of_scene: str) -> None:
         """Write history.csv without the suction, in which each mean is constant about
         its depth, and run.json with the fingerprint of the scene."""
-        absolute = {quantity.column for quantity in SUCTION}
+        absolute = {quantity.column() for quantity in SUCTION}
         columns = [name for name in results[0].history if name not in absolute]
         means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
         centers = np.array([window.depth for window in self.windows])

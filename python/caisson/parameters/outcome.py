@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, error_bounds
-from caisson.error.error_bar import QUANTITIES, SIDES
 from caisson.evaluation import rest_of_run
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
@@ -249,13 +248,14 @@ class Outcomes:
         """Return how far the truth may lie below and above [2, n_depths], by the error
         bar beside the scene, for its numerics; None where there is none. values: of
         what is observed."""
-        named = [q for q in QUANTITIES.values() if q.column == self.column]
+        every = error_bounds.QUANTITIES.values()
+        named = [q for q in every if q.column() == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not named:
             return None
         try:
             bar = read_table(error_bounds.beside(outcome.run.run.scene))
-            sides = [bar[named[0].named(side)] for side in SIDES]
+            sides = [bar[named[0].bar_column(side)] for side in ("below", "above")]
         except ResultsError:
             return None
         nan = math.nan
