@@ -152,9 +152,8 @@ def sinks_on(history: Table) -> list[tuple[float, float]]:
 
 def pump_limit(run: Results) -> float | None:
     """Return Water/Largest suction in kPa, None without one."""
-    entries = run.summary.get("entries", {}) if run.scene else {}
     try:
-        return float(entries.get("Water/Largest suction", "")) / 1e3
+        return float(run.entry("Water/Largest suction")) / 1e3
     except ValueError:
         return None
 

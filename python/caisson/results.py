@@ -156,18 +156,25 @@ class Results:
         return found
 
     @property
+    def known(self) -> dict[str, Any]:
+        """run.json; empty where a run has left none yet."""
+        return self.summary if (self.directory / "run.json").is_file() else {}
+
+    def entry(self, path: str) -> str:
+        """Return an entry in effect, set or default; "" where it is not known."""
+        every = {**self.known.get("defaults", {}), **self.known.get("entries", {})}
+        return str(every.get(path, ""))
+
+    @property
     def scene(self) -> dict[str, Any]:
-        """The body and the layers of the soil, from run.json; empty where a run
-        has left none yet."""
-        if not (self.directory / "run.json").is_file():
-            return {}
-        return self.summary.get("scene") or {}
+        """The body and the layers of the soil; empty where they are not known yet."""
+        return self.known.get("scene") or {}
 
     @property
     def feasible_to(self) -> float | None:
         """The depth where suction ends (m), by the verdict in run.json; None without
         one, or where suction does not end."""
-        return self.summary.get("feasible_to_m") if self.scene else None
+        return self.known.get("feasible_to_m")
 
     @property
     def shown(self) -> Units:
@@ -177,16 +184,14 @@ class Results:
     @property
     def body(self) -> str:
         """The kind of the body; a caisson where a run has left no run.json yet."""
-        if not (self.directory / "run.json").is_file():
-            return "caisson"
-        return str(self.summary.get("entries", {}).get("Rigid body/Kind", "caisson"))
+        return self.entry("Rigid body/Kind") or "caisson"
 
     @property
     def title(self) -> str:
         """The scene's title or file, and where the results are."""
-        if not (self.directory / "run.json").is_file():
+        if not self.known:
             return str(self.directory)
-        names = [str(self.summary.get(key) or "") for key in ("title", "scene_file")]
+        names = [str(self.known.get(key) or "") for key in ("title", "scene_file")]
         names.append(f"results in {self.directory}")
         return disk.one_line(", ".join(filter(None, names)))
 

@@ -51,9 +51,9 @@ class Wall(NamedTuple):
     diameter: float
     thickness: float
     length: float
-    yield_strength: float = 355e6
-    youngs_modulus: float = 210e9
-    fixity: float = 0.5
+    yield_strength: float
+    youngs_modulus: float
+    fixity: float
     rings: float = inf
 
     @property

@@ -17,12 +17,7 @@ from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
 from caisson.design import plug_stability, senders_randolph
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
-from caisson.design.houlsby_byrne import (
-    UNDISTURBED,
-    Assumptions,
-    HoulsbyByrne,
-    Layer,
-)
+from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
 from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
@@ -68,10 +63,9 @@ def site_of(run: Results) -> Site:
     test = of_run(run.directory)
     if not run.scene and run.is_running:
         return Site({}, cone=test, is_running=True)
-    entries = (run.summary.get("entries") or {}) if run.scene else {}
     given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
     scene = {**run.scene, "design_methods": given}
-    return Site(scene, entries.get("Water/Level", "drained"), test)
+    return Site(scene, run.entry("Water/Level") or "drained", test)
 
 
 def top_of(entry: Scene) -> float:

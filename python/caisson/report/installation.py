@@ -192,10 +192,9 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
 def way_to_an_error(run: Results) -> str:
     """Return the command that computes the error bar of a scene, for the error of its
     mesh where the title says that."""
-    known = run.summary if run.scene else {}
-    said = re.search(r"error of about (\d+) ?%", str(known.get("title", "")))
+    said = re.search(r"error of about (\d+) ?%", str(run.known.get("title", "")))
     command = "caisson run" if INSTALLED else "scripts/run"
-    scene = known.get("scene_file") or "FILE.prm"
+    scene = run.known.get("scene_file") or "FILE.prm"
     return f"{command} --error {said[1] if said else 10}% {scene}"
 
 

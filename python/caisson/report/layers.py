@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.design.reasons import text_of
-from caisson.report.scene import SOIL, caisson_of, end_of, entry_of, is_assumed
+from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
 from caisson.report.scene import is_sealed, readable, scale_of
 from caisson.results import Results
 
@@ -30,11 +30,7 @@ OF_LAYER = {
         "degrees",
         "Friction angle of the walls",
     ),
-    "wall_adhesion_Pa": (
-        "Adhesion of the walls",
-        "Pa",
-        "Adhesion factor of the walls",
-    ),
+    "wall_adhesion_Pa": ("Adhesion of the walls", "Pa", "Adhesion factor of the walls"),
 }
 FIRST = ("submerged_unit_weight_N_m3", "K0", "relative_density")
 # older files have no list of the numbers of a law
@@ -187,7 +183,7 @@ def number_in_words(run: Results, layer: Layer, name: str, unit: str) -> str:
 
 def drainage_of(run: Results, layer: Layer) -> str:
     """Return how the pore water of a layer was computed."""
-    level = entry_of(run, "Water/Level")
+    level = run.entry("Water/Level")
     if layer.is_clay and level in ("", "drained", "seepage"):
         return "undrained (total stress)"
     return level
@@ -215,7 +211,7 @@ def drainage_of_run(run: Results) -> str:
 
 def use_of(run: Results) -> str:
     """Return what the numbers of a run are for: drainage, and how it is installed."""
-    level = entry_of(run, "Water/Level")
+    level = run.entry("Water/Level")
     if not caisson_of(run) or not level:
         return ""
     has_weight = run.scene.get("submerged_weight_N") is not None

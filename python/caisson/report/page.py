@@ -124,7 +124,7 @@ def remaining_of(run: Results, done: float) -> float | None:
 
 def progress_of(run: Results) -> tuple[float, str]:
     """Return how much of a run is done (%), and in words how long it takes still."""
-    known = run.summary.get("progress") or {} if run.scene else {}
+    known = run.known.get("progress") or {}
     done = float(known.get("fraction_done") or 0)
     left = remaining_of(run, done) or known.get("remaining_s")
     words = f"{100 * done:.0f} % done"
@@ -289,7 +289,7 @@ def of_installation(
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
-        "factors": limits.sources_of(found.factors, found.limits),
+        "factors": limits.sources_of(run, found.limits),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),

@@ -74,7 +74,7 @@ def mass_scaling_of(run: Results) -> str:
     """Return the mass scaling found by an inertia tolerance, in words; nothing without
     one, and of older files."""
     scaling = run.summary.get("mass_scaling")
-    tolerance = entry_of(run, "Time/Inertia tolerance")
+    tolerance = run.entry("Time/Inertia tolerance")
     if not scaling or tolerance in ("", "none"):
         return ""
     least, most = (text_of(float(f"{x:.2g}")) for x in scaling)
@@ -99,19 +99,10 @@ def is_assumed(run: Results, entry: str) -> bool:
     return entry in run.summary.get("assumed", [])
 
 
-def entry_of(run: Results, path: str) -> str:
-    """Return the value of an entry, set or default; nothing in older files."""
-    summary = run.summary if run.scene else {}
-    known = {**summary.get("defaults", {}), **summary.get("entries", {})}
-    return str(known.get(path, ""))
-
-
 def end_of(run: Results) -> float | None:
     """Return the penetration at which the scene ends (m), None where it has none."""
-    if not run.scene:
-        return None
     try:
-        return float(entry_of(run, "Time/End penetration"))
+        return float(run.entry("Time/End penetration"))
     except ValueError:
         return None
 
@@ -140,7 +131,7 @@ def caisson_of(run: Results) -> list[Item]:
         if length is not None:
             found.append(Item(name, run.shown.length(float(length))))
     for name in ("Wall steps", "Rings"):
-        if text := entry_of(run, f"{BODY}/{name}"):
+        if text := run.entry(f"{BODY}/{name}"):
             found.append(Item(f"{name} (m)", text))
     tip = math.pi / 4 * outer**2 - plug_area(scene)
     found += [
@@ -164,15 +155,15 @@ def caisson_of(run: Results) -> list[Item]:
 
 def tip_of(run: Results) -> list[Item]:
     """Return shape and friction of the tip; nothing of older files."""
-    found, shape = [], entry_of(run, f"{BODY}/Tip")
+    found, shape = [], run.entry(f"{BODY}/Tip")
     if shape:
-        slope = entry_of(run, f"{BODY}/Tip angle")
+        slope = run.entry(f"{BODY}/Tip angle")
         words = f"{shape}, {slope}°" if shape == "triangular" else shape
         entries = [f"{BODY}/Tip", f"{BODY}/Tip angle"]
         assumed = any(is_assumed(run, entry) for entry in entries)
         found.append(Item("Shape of the tip", words, assumed))
     entry = f"{BODY}/Friction angle of the tip"
-    if angle := entry_of(run, entry):
+    if angle := run.entry(entry):
         words = f"{float(angle):g}°"
         found.append(Item("Friction angle of the tip", words, is_assumed(run, entry)))
     return found
@@ -196,7 +187,7 @@ def installation_of(run: Results) -> list[Item]:
             continue
         if "pump" in name and is_sealed(run):
             continue
-        if value := entry_of(run, path):
+        if value := run.entry(path):
             text = entry_with_unit(value, unit)
             if path == "Time/End penetration" and end_of(run) is not None:
                 text = run.shown.length(float(value))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
-from caisson.report.scene import BODY, end_of, entry_of
+from caisson.report.scene import BODY, end_of
 
 LETTER = 7.2  # pixels, the width of a letter
 WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
@@ -24,9 +24,9 @@ class Tip(NamedTuple):
 
 def tip_of(run: Results, depth: float) -> Tip:
     """Return the tip at a depth (m); that of older files is flat."""
-    if entry_of(run, f"{BODY}/Tip") != "triangular":
+    if run.entry(f"{BODY}/Tip") != "triangular":
         return Tip(depth, 0.0)
-    angle = float(entry_of(run, f"{BODY}/Tip angle") or 45)
+    angle = float(run.entry(f"{BODY}/Tip angle") or 45)
     return Tip(depth, math.tan(math.radians(angle)))
 
 

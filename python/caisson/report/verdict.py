@@ -17,7 +17,7 @@ from caisson.report import installation, pull, remedies
 from caisson.plot import limits
 from caisson.plot.limits import BOILING, COMPUTED, PIPING
 from caisson.report.installation import NOTHING, Installation, Rate
-from caisson.report.scene import end_of, entry_of
+from caisson.report.scene import end_of
 from caisson.results import Results
 
 KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
@@ -150,9 +150,7 @@ def of_force(run: Results, found: Installation) -> str:
     parts = [f"{shown.force(float(found.forces[k][-1]))}" for k in found.forces][:3]
     names = ("tip", "friction inside", "outside")
     of_which = ", ".join(f"{name} {part}" for name, part in zip(names, parts))
-    how = (
-        "Jacked" if entry_of(run, "Rigid body/Motion") in ("", "prescribed") else "Sunk"
-    )
+    how = "Jacked" if run.entry("Rigid body/Motion") in ("", "prescribed") else "Sunk"
     force, effective = total, ""
     if len(found.with_water):
         force, effective = (
