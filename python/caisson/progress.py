@@ -99,8 +99,7 @@ class Progress:
 
     @property
     def scale(self) -> float:
-        """The time that runs take over the time that was expected of them; 1 before one
-        has ended."""
+        """Time taken over time expected of the runs that ended, else 1."""
         expected = sum(self.expected[i] for i in self.took)
         return sum(self.took.values()) / expected if expected else 1.0
 
@@ -139,8 +138,7 @@ class Progress:
             self.stream.flush()
 
     def _draw(self) -> None:
-        """Write the bar over the last one, or a line where there is something to say
-        that is new."""
+        """Draw the bar, or say in a line what is new."""
         if not self.has_bar:
             share, text = self.words()
             now = time.monotonic()

@@ -86,8 +86,7 @@ class Results:
 
     @functools.cached_property
     def history(self) -> Table:
-        """Forces, energies and counts; a row is the mean since the row before. Columns
-        of what a scene lacks are absent."""
+        """Forces, energies and counts, as far as the scene has them: means of rows."""
         found = self.table("history.csv", "time_s")
         for name in ("time_s", "penetration_m"):
             if not np.isfinite(found.get(name, 0.0)).all():
@@ -122,8 +121,7 @@ class Results:
 
     @functools.cached_property
     def error_bounds(self) -> Table:
-        """Lower and upper bounds of forces; empty where there are none, as in a run
-        that ended above the depths of its error bar."""
+        """Lower and upper bounds of forces; empty without an error bar."""
         path = self.directory / "history_error.csv"
         if not path.is_file() or len(disk.read_text(path, ResultsError).split()) < 2:
             return {}
@@ -172,8 +170,7 @@ class Results:
 
     @property
     def feasible_to(self) -> float | None:
-        """The depth where suction ends (m), by the verdict in run.json; None without
-        one, or where suction does not end."""
+        """The depth where suction ends (m), None without such a verdict."""
         return self.known.get("feasible_to_m")
 
     @property
@@ -197,8 +194,7 @@ class Results:
 
     @property
     def is_running(self) -> bool:
-        """Whether the run has not ended yet, or was killed: run.json is missing, or
-        is that of a run in progress."""
+        """Whether the run has not ended yet, or was killed."""
         if not (self.directory / "run.json").is_file() or is_locked(self.directory):
             return True
         return self.summary.get("status") == "running"
@@ -219,8 +215,7 @@ class Results:
         return {check["check"]: check for check in self.check_list}
 
     def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
-        """Return [(time, [files])] of points.pvd or grid.pvd, in order; files
-        that are gone, as of a run that was stopped, are left out."""
+        """Return [(time, [files])] of a series in order, of files that are there."""
         path = self.directory / f"{series}.pvd"
         if not path.is_file():
             return []

@@ -132,8 +132,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
 
 @contextlib.contextmanager
 def reporting(directory: Path | None) -> Iterator[None]:
-    """Renew the report of a run from time to time as long as it runs and has more to
-    show."""
+    """Renew the report of a run from time to time while it has more to show."""
     ended = threading.Event()
 
     def renew() -> None:
@@ -161,8 +160,7 @@ def reporting(directory: Path | None) -> Iterator[None]:
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:
-    """Return the exit status of the program, as a shell would. It ends with a
-    checkpoint when it is asked to stop, so it is waited for."""
+    """Return the exit status of the program as a shell would, once it has ended."""
     while True:
         try:
             status = process.wait()
@@ -172,8 +170,7 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
 
 
 def run_alone(command: list[str]) -> int:
-    """Run the program on one rank; return its exit status. Ctrl-C reaches it without
-    our help; other signals are handed on."""
+    """Run the program on one rank, and hand signals on; return its exit status."""
     process = subprocess.Popen(command, env=environment())
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda caught, _: process.send_signal(caught))

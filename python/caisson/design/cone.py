@@ -32,8 +32,7 @@ NAME = "cone.csv"  # of the test in the directory of a run
 
 
 class Profile:
-    """The cone resistance over depth; assumed: of one that was not measured, what it
-    rests on, in a sentence."""
+    """The cone resistance over depth; assumed: what an assumed one rests on."""
 
     assumed = ""
 
@@ -140,8 +139,7 @@ class ConeMethod:
 
 
 def read(path: Path) -> Profile:
-    """Return depth and resistance of the test in a file (caisson.design.cone_file).
-    Raises InputError, with the rows that are wrong."""
+    """Return depth and resistance of a test. Raises InputError, with the wrong rows."""
     test = cone_file.read(path, with_friction=False)
     return Profile(test.depth.tolist(), test.resistance.tolist())
 

@@ -77,8 +77,7 @@ def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
 
 
 def place_of(text: str) -> int:
-    """Return the place of a column, from 0, by its number, from 1. Raises
-    ValueError."""
+    """Return the place of a column from 0 by its number. Raises ValueError."""
     if int(text) < 1:
         raise ValueError(f"the first column has the number 1, not {text}")
     return int(text) - 1
@@ -103,8 +102,7 @@ def gef_head(row: int, value: list[str]) -> Head:
 
 
 def gef_void(_: int, value: list[str]) -> tuple[int, float]:
-    """Return the place of a column, and what stands in it for no value. Raises
-    ValueError or IndexError."""
+    """Return a place, and its mark for no value. Raises ValueError or IndexError."""
     return place_of(value[0]), decimal_of(value[1:])[0]
 
 
@@ -125,8 +123,7 @@ def gef_lines(path: Path, keys: Keys, key: str, read: Callable, what: str) -> li
 
 
 def gef_facts(keys: Keys) -> Facts:
-    """Return what #MEASUREMENTVAR says of the whole test; a value that is no number
-    says nothing."""
+    """Return what #MEASUREMENTVAR says of the test, as far as it is in numbers."""
     found: dict[str, float] = {}
     for _, key, value in keys:
         try:
@@ -268,8 +265,7 @@ def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list
 
 
 def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the names of the tests: locations, and the pushes of each that has
-    several."""
+    """Return the names of the tests: locations, or the pushes of those with several."""
     pushes: dict[str, list[str]] = {}
     for place, push in dict.fromkeys(keys):
         pushes.setdefault(place, []).append(push)

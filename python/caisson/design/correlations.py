@@ -216,6 +216,5 @@ def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:
 
 
 def at_rest_of_clay(ground: Ground) -> np.ndarray:
-    """Return K_0 = 0.1 (q_t - sigma_v)/sigma'_v [n] (Kulhawy & Mayne 1990), held
-    within RESTS_OF_CLAY."""
+    """Return K_0 = 0.1 (q_t - sigma_v)/sigma'_v [n] (Kulhawy & Mayne 1990), bounded."""
     return np.clip(0.1 * ground.net / ground.stress, *RESTS_OF_CLAY)

@@ -74,8 +74,7 @@ def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
 
 
 def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
-    """Return the suction that lifts the clay off the sand below; nan where there is
-    none."""
+    """Return the suction that lifts the clay off the sand below, or nan."""
     bottom = bottom_of_clay(layers, h)
     if np.isnan(bottom):
         return nan

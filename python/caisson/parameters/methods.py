@@ -41,8 +41,7 @@ class Answers(NamedTuple):
     answers: list[list[theory.Answer]]
 
     def band(self, method: int) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return smallest and largest total force [n_depths] by a method, None where
-        it has no answer."""
+        """Return least and most total force [n_depths] by a method, or None."""
         forces = [
             force
             for of_run in self.answers

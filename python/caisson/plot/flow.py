@@ -17,8 +17,7 @@ PIECES = 4  # of the width of a cell in the mudline
 
 
 class Flow:
-    """The flow through the soil, in the unit of the pressure per meter, linear in
-    each cell and continuous."""
+    """The flow through the soil, in units of pressure per meter."""
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
         """pressure: excess at the points."""
@@ -37,8 +36,7 @@ class Flow:
     def heights(
         self, cell: np.ndarray, r: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the place of r in the width of its cell, from 0 to 1, and bottom
-        and top of the cell there."""
+        """Return where r is in its cell, 0 to 1, and bottom and top there."""
         corners = self.corners[cell]
         left, right = corners[:, 0, 0], corners[:, 1, 0]
         xi = (r - left) / (right - left)
@@ -46,8 +44,7 @@ class Flow:
         return xi, bottom, (1 - xi) * corners[:, 3, 1] + xi * corners[:, 2, 1]
 
     def at(self, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the flow [n, 2] at positions [n, 2], nan out of the soil, and the
-        sizes of their cells."""
+        """Return the flow [n, 2] at positions [n, 2], or nan, and sizes of cells."""
         cell = cell_of(position, self.corners)
         xi, bottom, top = self.heights(cell, position[:, 0])
         eta = (position[:, 1] - bottom) / np.maximum(top - bottom, 1e-12)

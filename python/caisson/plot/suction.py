@@ -45,8 +45,7 @@ def has_line(*suctions: np.ndarray) -> bool:
 
 
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the ranges of the required suction of the methods, in kPa, from where the
-    weight no longer suffices."""
+    """Draw the ranges of the required suction of the methods (kPa)."""
     for method in answers.required:
         color = COLOR_OF.get(method.name, GREEN)
         low, high = (end / 1e3 for end in method.band)
@@ -136,8 +135,7 @@ def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> li
 
 
 def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
-    """Draw the suction of the run, of the methods, and its limits; return which limits
-    are out of the range."""
+    """Draw suction, methods and limits; return the limits out of the range."""
     history = run.history
     depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
@@ -253,8 +251,7 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
 
 
 def draw(directory: Path, run: Results) -> list[Path]:
-    """Write suction.png; return its path, none without a pump or without
-    penetration."""
+    """Write suction.png; return its path, none without a way under suction."""
     history = run.history
     if "required_suction_Pa" not in history:
         return []

@@ -34,8 +34,7 @@ LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
 
 class NotApplicable(Exception):
-    """Why a method says nothing about a scene: what the method does not know, in a
-    part of a sentence."""
+    """Why a method says nothing about a scene, in a part of a sentence."""
 
 
 class Site(NamedTuple):
@@ -74,8 +73,7 @@ def top_of(entry: Scene) -> float:
 
 
 def sand_of(entry: Scene, number: int) -> Sand:
-    """Return what a cone resistance follows from in a layer of run.json. Raises
-    NotApplicable."""
+    """Return a layer as sand with a cone resistance. Raises NotApplicable."""
     density, angle = entry.get("relative_density"), entry.get("friction_angle_deg")
     if density is None and (entry.get("law") in BY_DENSITY or not angle):
         law = entry.get("law", LAWS[0])
@@ -146,8 +144,7 @@ def skirt_of(site: Site) -> Skirt:
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
-    """Return what Houlsby and Byrne assume, by the options of the report or, in the
-    run.json of earlier versions, the scene."""
+    """Return what Houlsby and Byrne assume by the options of the report."""
     given = scene.get("design_methods") or {}
     known = {name: given[name] for name in Assumptions._fields if name in given}
     return Assumptions(
@@ -232,8 +229,7 @@ def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
-    """Return Houlsby and Byrne for a site, with the layers down to deepest (m). Raises
-    NotApplicable."""
+    """Return Houlsby and Byrne down to a depth (m). Raises NotApplicable."""
     skirt = skirt_of(site)
     try:
         layers = layers_of(site, deepest)
@@ -283,8 +279,7 @@ def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
 
 
 def clay_of(site: Site, deepest: float) -> Method:
-    """Return the method of clay for a site, in which there may be sand, too. Raises
-    NotApplicable."""
+    """Return the method of clay, with or without sand. Raises NotApplicable."""
     skirt, soils = skirt_of(site), {soil for _, soil in soils_of(site, deepest)}
     if "clay" not in soils:
         only(site, deepest, "clay")
@@ -295,8 +290,7 @@ def clay_of(site: Site, deepest: float) -> Method:
 
 
 def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
-    [n]; none without clay."""
+    """Return the suctions (Pa) [n] at which a plug of clay gives way, if any."""
     try:
         skirt, deepest = skirt_of(site), float(depth.max())
         soils_of(site, deepest)

@@ -81,9 +81,8 @@ def own(
 
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
-    """Return the ranges of the design methods (kN) over depth (m). Only tip and total
-    by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
-    forces of jacking."""
+    """Return the design methods (kN) over depth (m), at first tip and total by Houlsby
+    & Byrne; nothing with suction, as they are forces of jacking."""
     found: list[Curve] = []
     if forces.has_suction(run):
         return found
@@ -113,8 +112,7 @@ def range_curve(run: Results, column: str, name: str) -> list[Curve]:
 
 
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
-    """Return the forces (kN) over depth (m) with their error bars and the range of
-    Houlsby & Byrne."""
+    """Return the forces (kN) over depth (m) with error bars and methods."""
     history, depth = run.history, run.history["penetration_m"]
     found = []
     for name, color in forces.COLORS.items():
@@ -140,8 +138,7 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
 
 
 def method_suctions(run: Results) -> list[Curve]:
-    """Return the required and the other critical suctions of the methods (kPa) over
-    depth."""
+    """Return the suctions of the methods (kPa) over depth."""
     site, depth = theory.site_of(run), design.depths_of(run.history)
     answers = suction_methods.answers_of(site, depth)
     found = []
@@ -246,8 +243,7 @@ def with_points(found: list[Curve]) -> list[Curve]:
 
 
 def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
-    """Return an interactive figure in the units of a run; that of its depths is its
-    key depth, and a rise is in mm anyway."""
+    """Return an interactive figure in the units of a run; a rise is in mm."""
     is_pull = bool(figure.get("upward"))
     across = shown.factor_of(figure["axis"])
     down = 1.0 if is_pull else shown.factor("m")

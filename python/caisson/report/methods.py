@@ -131,8 +131,7 @@ def beside(
 def under_suction(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[theory.Beside]:
-    """Return the resistance that methods for suction have at depths [n] under the
-    suction of the run; answers: of jacking."""
+    """Return resistances [n] of methods under the suction of the run."""
     suction = np.maximum(design.suction_at(run.history, at), 0)
     try:
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
@@ -167,8 +166,7 @@ def under_suction(
 
 
 def or_piping(values: np.ndarray) -> list[str]:
-    """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
-    suction exceeds its critical one."""
+    """Return suctions as text; NO_ANSWER below where a method ends."""
     known = np.flatnonzero(np.isfinite(values))
     last = int(known[-1]) if len(known) else -1
     return [
@@ -180,8 +178,7 @@ def or_piping(values: np.ndarray) -> list[str]:
 def suction_tables(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[dict[str, Any]]:
-    """Return the tables of required and critical suctions, and of the resistance under
-    the suction of the run; answers: of jacking."""
+    """Return the tables of suctions and of the resistance under suction."""
     required = np.maximum(design.suction_at(run.history, at), 0)
     found = suction_methods.answers_of(site, at)
     critical = {
@@ -208,8 +205,7 @@ def suction_tables(
 
 
 def compared(run: Results, h: float) -> reasons.Compared | None:
-    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
-    answer there or the run lacks a force."""
+    """Return the run beside Houlsby & Byrne at a depth (m), or None."""
     site, at = theory.site_of(run), np.array([h])
     known = design.compared_at(run.history, at)
     try:
@@ -250,9 +246,8 @@ def why_of(run: Results, at: np.ndarray) -> str:
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
-    """Return why the run is not like undisturbed ground and the methods from a cone, a
-    sentence for each that is not, at a depth; answers: of jacking, at this depth. With
-    suction only methods for suction are compared."""
+    """Return a sentence for each method that the run is not like, at a depth (m), of
+    which answers have the forces of jacking."""
     at, history = np.array([h]), run.history
     known = design.compared_at(history, at)
     if set(known) != set(design.FORCES):
@@ -326,10 +321,8 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 
 
 def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method, of the first table of the methods, at
-    the deepest depth with an answer of a method that is fitted to field data, without
-    an assumed cone if possible, else of the lower bound; nothing where none has an
-    answer."""
+    """Return a card with computed over method at the deepest depth with an answer: of a
+    fitted method, without an assumed cone if possible, else of the bound."""
     answers = [
         (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
         for table in found["tables"][:1]

@@ -43,8 +43,7 @@ def script(name: str) -> str:
 
 
 def pictures_of(run: Results) -> list[dict[str, str]]:
-    """Return the run's pictures as data, each with what it shows; drawn where the run
-    has left none."""
+    """Return the pictures as data; drawn where the run has left none."""
     if not (run.directory / "forces.png").is_file() and not run.is_running:
         plot.draw(run.directory)
     found = []
@@ -206,8 +205,7 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run that did not come to its end is good for; nothing of others,
-    and where suction ends before it."""
+    """Return what a run is good for that ended early, else nothing."""
     depth = run.history.get("penetration_m")
     if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""

@@ -54,8 +54,7 @@ class Sizes(NamedTuple):
 
 
 class Planned:
-    """The caisson at a depth (m) that it does not reach; forces in kN, suctions in
-    kPa."""
+    """The caisson at a depth (m) that it does not reach; in kN and kPa."""
 
     def __init__(self, run: Results, found: Installation, depth: float) -> None:
         """found: what is feasible, whose trend goes on to the depth."""
@@ -150,8 +149,7 @@ def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None
 
 
 def reach(planned: Planned, name: str, size: float) -> float:
-    """Return the depth (m) to which the caisson goes in with another diameter or
-    wall (m)."""
+    """Return the depth (m) reached with another diameter or wall (m)."""
     run, found = planned.run, planned.found
     low, high = float(found.depth[-1]), planned.depth
     for _ in range(12):
@@ -162,8 +160,7 @@ def reach(planned: Planned, name: str, size: float) -> float:
 
 
 def weight_of(planned: Planned) -> float | None:
-    """Return the weight (kN) that suffices; None where none does, as the wall buckles
-    under it."""
+    """Return the weight (kN) that suffices, or None."""
     sizes = planned.sizes
     low, high = sizes.weight, sizes.weight + planned.required * sizes.area
     if not planned.suffices(sizes._replace(weight=high)):
@@ -211,8 +208,7 @@ def pump_row(planned: Planned) -> str:
 
 
 def size_row(planned: Planned, name: str, found: float | None, why: str) -> list[str]:
-    """Return the row of a diameter or a wall (m); where none suffices, why, and how
-    deep one of TRIED goes."""
+    """Return the row of a diameter or a wall (m), or how deep one would go."""
     old = planned.sizes._asdict()[name]
     factor, unit = (1e3, "mm") if name == "wall" else (1.0, "m")
     if found is not None:

@@ -112,8 +112,7 @@ class Drawing:
 
 
 def about_layer(run: Results, layer: Layer, width: float) -> str:
-    """Return the most important numbers of a layer, as many as are not wider (pixels):
-    the table beside it has all."""
+    """Return the numbers of a layer that fit into a width (pixels)."""
     strength = strength_of(run, layer)
     words = [f"layer {layer.number}", strength.partition(" (")[0]]
     weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
@@ -124,8 +123,7 @@ def about_layer(run: Results, layer: Layer, width: float) -> str:
 
 
 def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
-    """Draw the layers, with their depths at the right and their numbers between the
-    walls of the caisson, where no dimension is."""
+    """Draw the layers with depths and numbers."""
     side, written = drawing.half_width, -1e9
     for i, layer in enumerate(layers_of(run.scene)):
         low = min(layer.bottom or drawing.bottom, drawing.bottom)
@@ -149,8 +147,7 @@ def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
 def draw_rings(
     drawing: Drawing, scene: Mapping[str, Any], inside: float, depth: float
 ) -> None:
-    """Draw the rings inside the wall, whose inner face is at this radius (m), with the
-    tip at a depth (m)."""
+    """Draw the rings inside the wall (radius in m) at a depth of the tip (m)."""
     number = 1
     while place := scene.get(f"ring_{number}_above_tip_m"):
         width, height = (scene[f"ring_{number}_{x}_m"] for x in ("width", "height"))

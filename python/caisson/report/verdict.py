@@ -40,8 +40,7 @@ class Verdict(NamedTuple):
 
 
 def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
-    """Return the depth (m) where the required suction reaches a limit [n] (kPa), and
-    the row at or below it; None where it does not."""
+    """Return the depth (m) where a limit [n] (kPa) is reached, and its row, or None."""
     beyond = (found.required >= limit) & (found.required > NOTHING)
     if not beyond.any():
         return None
@@ -53,8 +52,7 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
 
 
 def end_by_program(run: Results) -> tuple[float, str] | None:
-    """Return the depth (m) where the program itself found that suction ends, and why;
-    None where it did not."""
+    """Return depth (m) and reason where the program found an end, or None."""
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
@@ -62,8 +60,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
-    """Return the depth (m) where the required suction reaches the allowable one, and
-    why; None where it does not."""
+    """Return depth (m) and reason where the required suction is too large, or None."""
     if not found.has_suction:
         return None
     if (end := reached(found, found.allowable)) is None:
