@@ -11,6 +11,7 @@ import difflib
 import importlib
 import os
 import re
+import subprocess
 import sys
 import traceback
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -131,6 +132,18 @@ def run_command(
             raise
         print(f"{name}: {words_on(error)}", file=sys.stderr)
     return 1
+
+
+def for_each(name: str, places: Sequence[Path], do: Callable[[Path], None]) -> int:
+    """Do something for each place; say what fails, and return 1 then, else 0."""
+    status = 0
+    for place in places:
+        try:
+            do(place)
+        except (InputError, OSError, subprocess.CalledProcessError) as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            status = 1
+    return status
 
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:

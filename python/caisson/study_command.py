@@ -74,13 +74,8 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     else:
         parser.set_defaults(file=file)
     add = parser.add_argument
-    add(
-        "--only",
-        type=pattern,
-        default="",
-        metavar="REGEX",
-        help="studies whose id or title fits",
-    )
+    text = "studies whose id or title fits"
+    add("--only", type=pattern, default="", metavar="REGEX", help=text)
     add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
@@ -139,13 +134,6 @@ def cost_of(study: Study) -> str:
     return text + (", by the speed of the first steps" if asked else "")
 
 
-def print_list(studies: list[Study]) -> None:
-    """Print what there is."""
-    for study in studies:
-        n = len(study.runs)
-        print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
-
-
 def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
     """Run and evaluate."""
     module = module_of(arguments.file, kinds)
@@ -159,7 +147,10 @@ def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int
     if not studies:
         raise StudyError(f"{arguments.file}: no study fits")
     if arguments.list:
-        print_list(studies)
+        for study in studies:
+            n = len(study.runs)
+            text = f"{study.id}: {study.title}, {n} runs, {cost_of(study)}"
+            print(text, flush=True)
         return 0
     options.results.mkdir(parents=True, exist_ok=True)
     return int(run_and_evaluate(module, studies, options, arguments))

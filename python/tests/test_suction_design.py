@@ -9,7 +9,8 @@ import numpy as np
 
 from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
 from caisson.design.method import Forces
-from caisson.design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
+from caisson.design import seepage as fits
+from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.suction_installation import (
     critical_suction,
     piping_suction,
@@ -22,6 +23,12 @@ DO, T, GAMMA, K = 6.0, 0.05, 9e3, 0.8
 DI, K_TAN = DO - 2 * T, K * tan(radians(25))
 RIM = pi * (DO - T) * T  # area of the end of the wall
 AREA = pi * DI**2 / 4
+CRITICAL_SUCTIONS = {
+    "Houlsby & Byrne (2005)": fits.houlsby_byrne,
+    "Senders & Randolph (2009)": fits.senders_randolph,
+    "Ibsen & Thilsted (2011)": fits.ibsen_thilsted,
+    "Feld (2001)": fits.feld,
+}
 N_Q, N_GAMMA = 18.4011, 14.754  # of 30 degrees
 SAND = Layer(0, GAMMA, 30, K)
 WEIGHT = 600e3

@@ -76,14 +76,13 @@ def by_layer(
     found = []
     for first in range(0, len(rows), WIDEST):
         columns = [heads, *rows[first : first + WIDEST]]
-        lines = [[capital(head), *rest] for head, *rest in zip(*columns)]
+        # a head is a title, but for symbols
+        lines = [
+            [re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head), *rest]
+            for head, *rest in zip(*columns)
+        ]
         found.append((lines[0], lines[1:]))
     return found
-
-
-def capital(head: str) -> str:
-    """Return a head as a title, but for symbols."""
-    return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
 
 
 def with_subscripts(text: str) -> str:

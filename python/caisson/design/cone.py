@@ -16,7 +16,7 @@ row; below the last row there is no answer (nan).
 SI units; z is the depth below the mudline (m), q_c is in Pa.
 """
 from collections.abc import Mapping, Sequence
-from math import inf, nan, pi, radians, tan
+from math import inf, nan, pi
 from pathlib import Path
 from typing import NamedTuple
 
@@ -75,16 +75,6 @@ class Skirt(NamedTuple):
     def tip_area(self) -> float:
         """The area of the end of the wall (m2)."""
         return pi * (self.outer_diameter - self.wall_thickness) * self.wall_thickness
-
-    @property
-    def tan_inner(self) -> float:
-        """The friction coefficient of the inner wall."""
-        return tan(radians(self.inner_friction_angle))
-
-    @property
-    def tan_outer(self) -> float:
-        """The friction coefficient of the outer wall."""
-        return tan(radians(self.outer_friction_angle))
 
 
 class Coefficients(NamedTuple):

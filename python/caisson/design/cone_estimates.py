@@ -121,7 +121,7 @@ OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
 }
 OF_CLAY = OF_SAND | {
     MODULUS: clay_moduli,
-    K0: lambda ground, _, __: correlations.at_rest_of_clay(ground),
+    K0: lambda g, *_: np.clip(0.1 * g.net / g.stress, *correlations.RESTS_OF_CLAY),
 }
 
 

@@ -101,11 +101,6 @@ def gef_head(row: int, value: list[str]) -> Head:
     return Head(place_of(value[0]), ", ".join(value[2:-1]), quantity, value[1], row)
 
 
-def gef_void(_: int, value: list[str]) -> tuple[int, float]:
-    """Return a place, and its mark for no value. Raises ValueError or IndexError."""
-    return place_of(value[0]), decimal_of(value[1:])[0]
-
-
 def gef_lines(path: Path, keys: Keys, key: str, read: Callable, what: str) -> list:
     """Return what a function reads of the values of all lines with a key. what: the
     line must have. Raises InputError."""
@@ -141,7 +136,13 @@ def gef_rows(path: Path, lines: Sequence[str], keys: Keys, last: int) -> Rows:
     """Return the rows of the table, below the last line of the keys, with empty cells
     where a column has no value. Raises InputError."""
     what = "the number of a column, from 1, and a number"
-    voids = gef_lines(path, keys, "COLUMNVOID", gef_void, what)
+    voids = gef_lines(
+        path,
+        keys,
+        "COLUMNVOID",
+        lambda _, value: (place_of(value[0]), decimal_of(value[1:])[0]),
+        what,
+    )
     # a value is divided at its commas: of a comma two empty parts are left
     marks = {key: "," if value[:2] == ["", ""] else value[0] for _, key, value in keys}
     divider = marks.get("COLUMNSEPARATOR") or None

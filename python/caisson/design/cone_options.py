@@ -10,10 +10,7 @@ EXAMPLE = "depth_m,qc_MPa,fs_kPa,u2_kPa"  # the columns of a table
 OPTIONS = {
     "location": ("NAME", "one of the tests in a file of AGS or BRO-XML"),
     "sheet": ("NAME", "the sheet of a workbook"),
-    "columns": (
-        "NAMES",
-        f"of a table without heads, as {EXAMPLE}; - for none to be read",
-    ),
+    "columns": ("NAMES", f"of a table without heads, as {EXAMPLE}; - for none"),
     "above": (
         '"qc = 2 MPa, fs = 20 kPa"',
         "the soil above a test that begins below the mudline",

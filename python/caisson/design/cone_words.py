@@ -2,8 +2,10 @@
 """The quantities of cone penetration tests, and what files call them: the only table of
 names and units, for all formats."""
 import re
+import tomllib
 import unicodedata
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 LENGTH = {
@@ -36,92 +38,11 @@ class Quantity(NamedTuple):
     words: str
 
 
+WORDS = Path(__file__).with_suffix(".toml")
+KINDS = {"length": LENGTH, "stress": STRESS, "ratio": RATIO}
 QUANTITIES = {
-    "depth": Quantity(
-        "depth",
-        LENGTH,
-        "SCPT_DPTH",
-        11,
-        1,
-        "m",
-        "depth z testdepth soundingdepth correcteddepth"
-        " depthbelowmudline depthbelowseabed depthbelowseafloor"
-        " depthbelowground depthbelowgroundlevel depthbelowsurface"
-        " tiefe teufe sondiertiefe tiefeuntergok tiefeugok tiefeuntergelande"
-        " tiefeuntergelandeoberkante tiefeuntermeeresboden"
-        " diepte sondeerdiepte gecorrigeerdediepte dieptetovmaaiveld dieptetovmv"
-        " diepteondermaaiveld dieptebenedenmaaiveld"
-        " prof profondeur profondeursouslesol profondeursoustn",
-    ),
-    "rods": Quantity(
-        "penetration length",
-        LENGTH,
-        "",
-        1,
-        0,
-        "m",
-        "penetration penetrationdepth penetrationlength testlength length"
-        " sondeerlengte sondeertrajectlengte lengte sondierlange",
-    ),
-    "qc": Quantity(
-        "cone resistance",
-        STRESS,
-        "SCPT_RES",
-        2,
-        3,
-        "MPa",
-        "qc coneresistance conetipresistance tipresistance conepressure endresistance"
-        " spitzendruck spitzenwiderstand konuswiderstand sondierspitzenwiderstand"
-        " conusweerstand conuswaarde conuswaarden puntweerstand sondeerwaarde"
-        " sondeerwaarden conusdruk"
-        " resistancedepointe resistanceenpointe resistancedecone resistanceducone"
-        " resistanceaucone pressiondepointe",
-    ),
-    "qt": Quantity(
-        "corrected cone resistance",
-        STRESS,
-        "SCPT_QT",
-        13,
-        4,
-        "MPa",
-        "qt correctedconeresistance correctedtipresistance correctedconetipresistance"
-        " totalconeresistance coneresistancecorrected korrigierterspitzendruck"
-        " korrigierterspitzenwiderstand gecorrigeerdeconusweerstand"
-        " resistancedepointecorrigee resistancedeconecorrigee",
-    ),
-    "fs": Quantity(
-        "sleeve friction",
-        STRESS,
-        "SCPT_FRES",
-        3,
-        18,
-        "kPa",
-        "fs sleevefriction sleeveresistance localfriction localsleevefriction"
-        " unitsleevefriction frictionresistance sidefriction localsidefriction"
-        " mantelreibung lokalemantelreibung ortlichemantelreibung"
-        " plaatselijkewrijving plaatselijkekleef lokalewrijving mantelwrijving kleef"
-        " frottementlateral frottementlateralunitaire frottementlaterallocal",
-    ),
-    "rf": Quantity(
-        "friction ratio",
-        RATIO,
-        "SCPT_FRR",
-        4,
-        24,
-        "%",
-        "rf frictionratio reibungsverhaltnis wrijvingsgetal rapportdefrottement",
-    ),
-    "u2": Quantity(
-        "pore pressure",
-        STRESS,
-        "SCPT_PWP2",
-        6,
-        22,
-        "kPa",
-        "u2 porepressure porewaterpressure dynamicporepressure shoulderporepressure"
-        " porenwasserdruck porendruck waterspanning poriewaterspanning poriendruk"
-        " waterdruk pressioninterstitielle pressiondeleau",
-    ),
+    key: Quantity(**{**found, "units": KINDS[found["units"]]})
+    for key, found in tomllib.loads(WORDS.read_text(encoding="utf-8")).items()
 }
 # what lines above the heads may say of the whole test
 FACTS = {

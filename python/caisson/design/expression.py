@@ -240,11 +240,6 @@ def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
         return text  # the program knows what it may be
 
 
-def gives_unit(text: str) -> bool:
-    """Return whether a number or an expression has a unit. Raises ValueError."""
-    return any(map(has_unit, tokens_of(text)))
-
-
 def value_at(text: str, depth: float, stress: float) -> float | None:
     """Return an expression at a depth (m) and a stress (Pa); None of another form."""
     try:

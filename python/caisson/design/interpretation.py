@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -91,56 +91,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("how the cone test is read")
     cone_options.add_arguments(group)
     add = group.add_argument
-    add(
-        "--tops",
-        type=depths,
-        metavar="0,M,...",
-        help="tops of the layers (m), instead of those found",
+    text = "tops of the layers (m), instead of those found"
+    add("--tops", type=depths, metavar="0,M,...", help=text)
+    text = "thickness of the thinnest layer, default %(default)g m"
+    default = layers.THINNEST
+    add("--thinnest", type=length, default=default, metavar="M", help=text)
+    text = f"one of {', '.join(BY_NAME)}; give one option for each"
+    every: dict[str, Any] = {"action": "append", "default": []}
+    add("--correlation", choices=BY_NAME, metavar="NAME", help=text, **every)
+    text = (
+        "sand, silt or clay: of all the soil, as needed where the test has no sleeve"
+        " friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option for each"
     )
-    add(
-        "--thinnest",
-        type=length,
-        default=layers.THINNEST,
-        metavar="M",
-        help="thickness of the thinnest layer, default %(default)g m",
-    )
-    add(
-        "--correlation",
-        action="append",
-        default=[],
-        choices=BY_NAME,
-        metavar="NAME",
-        help=f"one of {', '.join(BY_NAME)}; give one option for each",
-    )
-    add(
-        "--soil",
-        type=soil,
-        action="append",
-        default=[],
-        metavar="KIND",
-        help="sand, silt or clay: of all the soil, as needed where the test has no"
-        " sleeve friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option"
-        " for each",
-    )
-    add(
-        "--nkt",
-        type=number(""),
-        metavar="N",
-        help=f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}",
-    )
-    add(
-        "--unit-weight",
-        type=number("kN/m3"),
-        metavar="KN/M3",
-        help="of the wet soil; needed where the test has no sleeve friction",
-    )
-    add(
-        "--area-ratio",
-        type=number(""),
-        metavar="A",
-        help="net area ratio of the cone, for u2; default: that of an AGS or GEF file,"
-        f" or {AREA_RATIO:g}",
-    )
+    add("--soil", type=soil, metavar="KIND", help=text, **every)
+    text = f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}"
+    add("--nkt", type=number(""), metavar="N", help=text)
+    text = "of the wet soil; needed where the test has no sleeve friction"
+    add("--unit-weight", type=number("kN/m3"), metavar="KN/M3", help=text)
+    text = f"of an AGS or GEF file, or {AREA_RATIO:g}"
+    text = f"net area ratio of the cone, for u2; default: that {text}"
+    add("--area-ratio", type=number(""), metavar="A", help=text)
 
 
 def check(file: Path, test: Test, options: argparse.Namespace) -> None:

@@ -16,7 +16,6 @@ the critical suction the sand inside loses its weight, or water breaks through i
 All fits are functions of h / D, the embedment of the tip over the diameter; here
 D is the outer one. SI units; unit weights are effective ones.
 """
-from collections.abc import Callable
 from math import atan, exp, pi
 
 
@@ -48,12 +47,3 @@ def ibsen_thilsted(unit_weight: float, h: float, diameter: float) -> float:
 def feld(unit_weight: float, h: float, diameter: float) -> float:
     """Return the critical suction (Pa)."""
     return unit_weight * diameter * 1.32 * (h / diameter) ** 0.75
-
-
-# method: critical suction (Pa) from unit weight (N/m3), h (m) and diameter (m)
-CRITICAL_SUCTIONS: dict[str, Callable[[float, float, float], float]] = {
-    "Houlsby & Byrne (2005)": houlsby_byrne,
-    "Senders & Randolph (2009)": senders_randolph,
-    "Ibsen & Thilsted (2011)": ibsen_thilsted,
-    "Feld (2001)": feld,
-}

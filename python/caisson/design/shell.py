@@ -92,11 +92,6 @@ def elastic_strengths(wall: Wall, length: float) -> tuple[float, float]:
     return axial, strength(4.0, 1.04 * sqrt(z), 0.6)
 
 
-def material_factor(slenderness: float) -> float:
-    """Return gamma_M at a reduced slenderness."""
-    return float(np.interp(slenderness, [0.5, 1.0], [1.15, 1.45]))
-
-
 def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> float:
     """Return the equivalent stress over the design strength of a part of this length
     (m), under a pressure from outside (Pa) and an axial force of compression (N)."""
@@ -108,7 +103,8 @@ def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> flo
     elastic_axial, elastic_hoop = elastic_strengths(wall, length)
     share = max(along, 0.0) / elastic_axial + max(hoop, 0.0) / elastic_hoop
     slenderness = sqrt(yields / stress * share)
-    strength = yields / sqrt(1 + slenderness**4) / material_factor(slenderness)
+    material_factor = float(np.interp(slenderness, [0.5, 1.0], [1.15, 1.45]))
+    strength = yields / sqrt(1 + slenderness**4) / material_factor
     return stress / strength
 
 

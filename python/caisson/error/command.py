@@ -221,13 +221,6 @@ class Plan:
         if self.output.resolve() == self.scene:
             raise StudyError(f"{self.output} is the scene. Choose another --output")
 
-    def check_free(self, runs: list[StudyRun]) -> None:
-        """Raise StudyError where the file is there and would be replaced."""
-        if self.output.exists() and not all(run.run.is_complete() for run in runs):
-            raise StudyError(
-                f"{self.output} exists. Choose --output, or replace it by --overwrite"
-            )
-
     def size_of_scene(self) -> Size:
         """Return points and duration of the scene, as an earlier call found it, so that
         a budget allows the same runs, or as the program says."""
@@ -407,8 +400,11 @@ def main(arguments: argparse.Namespace) -> int:
         print(f"This is more than the budget, {duration(plan.budget)}.")
     if arguments.list:
         return 0
-    if not arguments.overwrite:
-        plan.check_free(study.runs)
+    is_complete = all(run.run.is_complete() for run in study.runs)
+    if not arguments.overwrite and plan.output.exists() and not is_complete:
+        raise StudyError(
+            f"{plan.output} exists. Choose --output, or replace it by --overwrite"
+        )
     plan.execute(study.runs, arguments.again)
     set_depths(study, plan.windows)
     with disk.all_or_none(arguments.overwrite):

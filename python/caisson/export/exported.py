@@ -144,7 +144,9 @@ def exported(state: State, mesh: Mesh) -> Exported:
         state=state,
         mesh=mesh,
         values=values,
-        unit_weight=state.weight_of_layers[values.layer],
+        unit_weight=np.array([layer.unit_weight for layer in state.layers])[
+            values.layer
+        ],
         applied=applied,
         held=is_held,
         wall=wall,

@@ -131,11 +131,6 @@ class State:
             return 0.0
         return self.forces.get("lid_force_N", 0.0) / (np.pi * self.wall.inner**2)
 
-    @property
-    def weight_of_layers(self) -> np.ndarray:
-        """The unit weights of the layers: [n_layers] (N/m3)."""
-        return np.array([layer.unit_weight for layer in self.layers])
-
     def at_rest(self, z: np.ndarray) -> np.ndarray:
         """Return the vertical stress of the ground before the body came, at heights
         [n] (m), positive in compression: [n] (Pa)."""

@@ -162,15 +162,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "%(prog)s [--interval M] [PICTURE.png] DIR...\n"
         "       %(prog)s --values [--at M,M...] DIR..."
     )
-    parser.add_argument(
-        "words",
-        nargs="+",
-        type=Path,
-        metavar="DIR",
-        help="the output directory of a run, whose name is its label; before the first"
-        " one the picture may stand, default comparison_DIR_DIR.png beside the first"
-        " run; the .csv file of the same name is written beside it",
+    text = (
+        "the output directory of a run, whose name is its label; before the first one"
+        " the picture may stand, default comparison_DIR_DIR.png beside the first run;"
+        " the .csv file of the same name is written beside it"
     )
+    parser.add_argument("words", nargs="+", type=Path, metavar="DIR", help=text)
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
     parser.add_argument("--interval", type=length, metavar="M", help=text)

@@ -238,11 +238,6 @@ def trimmed(words: str) -> str:
     return words.split()[0].rstrip("0").rstrip(".")
 
 
-def flow_head(found: Installation) -> str:
-    """Return what moves the water out of the caisson."""
-    return "pump flow" if found.has_suction else "water to vent"
-
-
 def tables_of(found: Installation) -> list[dict[str, Any]]:
     """Return the tables of what the installation takes, and what is allowed."""
     n, shown = range(len(found.depth)), found.shown
@@ -267,7 +262,8 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
         takes[shown.named("required suction (kPa)")] = in_range(
             found, found.required, found.required_bounds, "kPa"
         )
-    takes[f"{flow_head(found)} (m³/h)"] = texts_of(found.flow)
+    head = "pump flow (m³/h)" if found.has_suction else "water to vent (m³/h)"
+    takes[head] = texts_of(found.flow)
     if not found.has_suction:
         add(takes, "plug heave (m)", found.heave)
         add(takes, "room below the lid (m)", found.room)

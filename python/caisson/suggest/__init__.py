@@ -64,18 +64,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="the scene to write, a .prm file")
     add_caisson_arguments(parser, required=True)
-    add(
-        "--layer",
-        action="append",
-        metavar='"TOP: ENTRY = VALUE, ..."',
-        help="a layer of soil; give one option for each, from the surface down",
-    )
-    add(
-        "--cpt",
-        type=Path,
-        metavar="FILE",
-        help="a cone test that gives the layers, in place of --layer",
-    )
+    text = "a layer of soil; give one option for each, from the surface down"
+    add("--layer", action="append", metavar='"TOP: ENTRY = VALUE, ..."', help=text)
+    text = "a cone test that gives the layers, in place of --layer"
+    add("--cpt", type=Path, metavar="FILE", help=text)
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
@@ -98,28 +90,19 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         "wall": "thickness of its wall",
     }.items():
         add(f"--{name}", type=length, required=required, metavar="M", help=what)
-    add(
-        "--wall-friction",
-        type=angle_of_friction,
-        metavar="DEGREES",
-        help="of sand, on both sides",
-    )
+    text = "of sand, on both sides"
+    add("--wall-friction", type=angle_of_friction, metavar="DEGREES", help=text)
     add("--penetration", type=length, metavar="M", help="where the run ends")
     text = "where it begins (default: at 6 %% of the skirt)"
     add("--embedment", type=number("m"), metavar="M", help=text)
-    add(
-        "--weight",
-        type=number("N"),
-        metavar="N",
-        help="in water; the rest takes suction",
-    )
+    text = "in water; the rest takes suction"
+    add("--weight", type=number("N"), metavar="N", help=text)
     add("--water-depth", type=number("m"), metavar="M", help="bounds the suction")
-    add(
-        "--law",
-        choices=(*sand.LAWS, sand.ONE_ANGLE),
-        help="of sand given by its density or a cone test: by density and stress"
-        " (default), hypoplastic, or with one friction angle (cone test only)",
+    text = (
+        "of sand given by its density or a cone test: by density and stress (default),"
+        " hypoplastic, or with one friction angle (cone test only)"
     )
+    add("--law", choices=(*sand.LAWS, sand.ONE_ANGLE), help=text)
     add("--error", type=percent, choices=sizes.LEVELS, default=10, help="wanted, in %%")
 
 
@@ -193,9 +176,9 @@ def refuse_quick_clay(layers: Sequence[Layer]) -> None:
     for i, layer in enumerate(layers, 1):
         if walls.is_quick_clay(layer):
             raise SuggestError(
-                f"layer {i}: phi = {walls.angle_of(layer)} beside a cohesion is no drained"
-                " strength, and with --weight water would flow through it as through"
-                f" sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
+                f"layer {i}: phi = {walls.angle_of(layer)} beside a cohesion is no"
+                " drained strength, and with --weight water would flow through it as"
+                f" through sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
             )
 
 

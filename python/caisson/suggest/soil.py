@@ -140,7 +140,9 @@ def value_of(
     unit = (known | UNITS_OF_DERIVED).get(name, "")
     try:
         value = expression.without_unit(text, unit, symbols if unit == "Pa" else {})
-        if name in UNITS_OF_DERIVED and not expression.gives_unit(text):
+        if name in UNITS_OF_DERIVED and not any(
+            map(expression.has_unit, expression.tokens_of(text))
+        ):
             number, of_it = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
             is_number = re.fullmatch(quantity.NUMBER, text)
             example = number if is_number else f"({text})"
