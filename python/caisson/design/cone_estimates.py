@@ -17,6 +17,7 @@ import numpy as np
 from caisson.design import correlations
 from caisson.design.cone_layers import Layer
 from caisson.design.correlations import (
+    RESTS_OF_CLAY,
     ANGLE,
     BEST,
     DENSITY,
@@ -25,13 +26,13 @@ from caisson.design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson.design.ground import CLAY, GRAVITY, SAND, SILT, WATER, Ground
+from caisson.design.ground import CLAY, SAND, SILT, Ground
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
 
 ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84
 RESISTANCE, INDEX, WEIGHT, K0 = "resistance", "index", "unit weight", "K0"
 REFERENCE = "modulus at 100 kPa"
-SOLID_DENSITY = 2650.0  # kg/m3, assumed, of quartz
 # E / s_u of clay, for the low, the best and the high estimate. Duncan & Buchignani
 # (1976) have about 300 for a plasticity of 30 to 50 % and an OCR below 3, and less for
 # more of either; quoted from memory, not checked against the report
@@ -74,7 +75,7 @@ class Estimates:
 
     def porosity(self) -> float:
         """Return the porosity at which water and quartz have the unit weight."""
-        solid, weight = SOLID_DENSITY * GRAVITY, self.values[WEIGHT].best
+        solid, weight = QUARTZ_DENSITY * GRAVITY, self.values[WEIGHT].best
         return (solid - weight) / (solid - WATER)
 
 
@@ -121,7 +122,7 @@ OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
 }
 OF_CLAY = OF_SAND | {
     MODULUS: clay_moduli,
-    K0: lambda g, *_: np.clip(0.1 * g.net / g.stress, *correlations.RESTS_OF_CLAY),
+    K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
 
 

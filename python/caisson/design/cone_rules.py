@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.disk import InputError
+from caisson.nature import WATER
 from caisson.design.cone_table import Table, cell_of, more
 from caisson.design.cone_words import QUANTITIES
 
@@ -27,7 +28,6 @@ RANGES = {
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
 WEAK = 200e3  # Pa; less is doubtful
 THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
-WATER = 9.81e3  # N/m3, unit weight
 SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 START = 0.5  # m; a first row that is deeper leaves soil of which nothing is known
 FIRST = 0.5  # m of readings that tell of the soil above them

@@ -41,7 +41,7 @@ class Quantity(NamedTuple):
 WORDS = Path(__file__).with_suffix(".toml")
 KINDS = {"length": LENGTH, "stress": STRESS, "ratio": RATIO}
 QUANTITIES = {
-    key: Quantity(**{**found, "units": KINDS[found["units"]]})
+    key: Quantity(units=KINDS[found.pop("units")], **found)
     for key, found in tomllib.loads(WORDS.read_text(encoding="utf-8")).items()
 }
 # what lines above the heads may say of the whole test

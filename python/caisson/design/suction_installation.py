@@ -37,12 +37,14 @@ from caisson.design.method import Forces
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
 
-def bisect(is_beyond: Callable[[float], bool], low: float, high: float) -> float:
-    """Return where is_beyond turns from False, at low, to True, at high."""
-    for _ in range(100):
+def bisect(
+    is_beyond: Callable[[float], bool], low: float, high: float, rounds: int = 100
+) -> tuple[float, float]:
+    """Return the ends between which is_beyond turns from False, at low, to True."""
+    for _ in range(rounds):
         middle = (low + high) / 2
         low, high = (low, middle) if is_beyond(middle) else (middle, high)
-    return high
+    return low, high
 
 
 def plug_area(caisson: Caisson) -> float:
@@ -86,7 +88,7 @@ def self_weight_penetration(
     for layer in caisson.layers[1:]:
         bottom = min(layer.top, deepest)
         if bottom > top and stands(bottom):
-            return bisect(stands, top, bottom)
+            return bisect(stands, top, bottom)[1]
         top = max(top, bottom)
     if not stands(deepest):
         raise ValueError(
@@ -95,7 +97,7 @@ def self_weight_penetration(
             f" {caisson.resistance(deepest, enhanced):g} N:"
             " no suction is needed down to this depth"
         )
-    return bisect(stands, top, deepest)
+    return bisect(stands, top, deepest)[1]
 
 
 def seepage(

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from caisson.loaded import LoadedRun
+from caisson.nature import GRAVITY, WATER_DENSITY
 from caisson.paths import short
 from caisson.results import ResultsError, Table
 from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus
@@ -38,7 +39,6 @@ SEGMENTS = 8  # of each wall
 SMALL = (1e-4, 1e-3, 1e-2)
 TOO_STIFF = 0.1  # by which waves that have not gone far may raise a stiffness
 STILL_GROWS = 0.02  # of the force at the end, by which the last tenth raises it
-GRAVITY, WATER_DENSITY = 9.81, 1000.0  # m/s2, kg/m3
 # the wall, its mean depth (m), its area (m2) and its stress over time [n] (Pa)
 Segment = tuple[str, float, float, np.ndarray]
 

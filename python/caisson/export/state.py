@@ -16,7 +16,6 @@ LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
 # these follow from the exported stress (tables.py)
 LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
-GRAVITY = 9.81  # m/s2: densities are unit weights over it
 TOLERANCE = 1e-6  # m
 # Young's modulus over the norm of the stress, of soil whose law has none
 STIFFNESS = 1e3

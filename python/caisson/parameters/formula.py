@@ -62,7 +62,7 @@ class Formula:
         try:
             if words := [k for k, v in used.items() if not isinstance(v, (int, float))]:
                 raise TypeError(f"{words[0]} is no number")
-            scope = {"__builtins__": {}, **FUNCTIONS, **used}
+            scope: dict[str, Any] = {"__builtins__": {}, **FUNCTIONS, **used}
             result = float(eval(self.code, scope))  # noqa: S307
         except (
             ArithmeticError,

@@ -17,7 +17,7 @@ from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
 from caisson.plot import theory
-from caisson.plot.small import over_depth, with_note
+from caisson.plot.small import over_depth, with_note, write_beside
 from caisson.table import write_columns
 from caisson import disk
 
@@ -131,18 +131,9 @@ def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
             zorder=3,
         )
         for y, end in zip(where[high > limit], high[high > limit]):
-            axes.annotate(
-                f"to {end:,.0f} >",
-                (limit, y),
-                (-3, 0),
-                textcoords="offset points",
-                ha="right",
-                va="center",
-                fontsize=7,
-                color=method.color,
-                bbox={"color": "white", "pad": 0.5},
-                zorder=5,
-            )
+            style = {"fontsize": 7, "color": method.color, "zorder": 5}
+            box = {"color": "white", "pad": 0.5}
+            write_beside(axes, f"to {end:,.0f} >", (limit, y), -1, bbox=box, **style)
 
 
 def draw_runs(axes: Axes, found: Answers) -> None:

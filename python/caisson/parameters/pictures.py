@@ -15,7 +15,7 @@ from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
 from caisson import disk
-from caisson.plot.small import over_depth, with_note
+from caisson.plot.small import over_depth, with_note, write_beside
 
 BLUE, RED = "#2166ac", "#c0392b"
 STYLES = ("-", "--", ":", "-.")
@@ -194,15 +194,7 @@ def draw_correlations(axes: Axes, found: list[Effect], n: int) -> None:
         color = RED if effect.high > 0 else BLUE
         axes.barh(i, effect.high, color=color, height=0.6)
         side = 1 if effect.high >= 0 else -1
-        axes.annotate(
-            f"{effect.high:+.2f}",
-            (effect.high, i),
-            (4 * side, 0),
-            textcoords="offset points",
-            ha="left" if side > 0 else "right",
-            va="center",
-            fontsize=9,
-        )
+        write_beside(axes, f"{effect.high:+.2f}", (effect.high, i), side, fontsize=9)
     limit = effects.chance(n)
     axes.axvspan(-limit, limit, color="0.85", zorder=0, label="range of chance (95 %)")
     axes.set_xlim(-1.18, 1.18)
@@ -228,15 +220,8 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
             )
             shown.add(label)
             side = -1 if result == effect.low else 1
-            axes.annotate(
-                text_of(value),
-                (result * scale, i),
-                (4 * side, 0),
-                textcoords="offset points",
-                ha="right" if side < 0 else "left",
-                va="center",
-                fontsize=9,
-            )
+            at = (result * scale, i)
+            write_beside(axes, text_of(value), at, side, fontsize=9)
     results = np.array([(e.low, e.high) for e in found]).ravel() * scale
     span = max(float(np.ptp([*results, base * scale])), 1e-9)
     low, high = min(*results, base * scale), max(*results, base * scale)

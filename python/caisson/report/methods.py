@@ -204,17 +204,23 @@ def suction_tables(
 # ------------------------------------------------------------------ why
 
 
+def computed_at(run: Results, h: float) -> Forces | None:
+    """Return the forces of a run at a depth, None where it lacks one."""
+    known = design.compared_at(run.history, np.array([h]))
+    if set(known) != set(design.FORCES):
+        return None
+    return Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
+
+
 def compared(run: Results, h: float) -> reasons.Compared | None:
     """Return the run beside Houlsby & Byrne at a depth (m), or None."""
     site, at = theory.site_of(run), np.array([h])
-    known = design.compared_at(run.history, at)
     try:
         byrne = theory.houlsby_byrne_of(site, h)
     except theory.NotApplicable:
         return None
-    if set(known) != set(design.FORCES):
+    if (computed := computed_at(run, h)) is None:
         return None
-    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     suction, flow, mine = 0.0, STILL, computed.total
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
@@ -248,11 +254,9 @@ def why_of(run: Results, at: np.ndarray) -> str:
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
     """Return a sentence for each method that the run is not like, at a depth (m), of
     which answers have the forces of jacking."""
-    at, history = np.array([h]), run.history
-    known = design.compared_at(history, at)
-    if set(known) != set(design.FORCES):
+    at = np.array([h])
+    if (computed := computed_at(run, h)) is None:
         return []
-    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
     if needs_suction(run):
         mine, what = float(design.suction_at(run.history, at)[0]), "suction"

@@ -14,15 +14,13 @@ from caisson.plot import limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.results import Results, Table
+from caisson.results import Results
 from caisson.report import band, content, installation, layers, methods, pull
 from caisson.report import remedies, scene, sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
 REFRESH = 20  # s, of the page of a run that has not ended
-RECENT = 0.4  # of what is done, whose steps tell those that come
-GROWTH = 0.25  # of the time of a step, over a whole run
 # name of a picture without its suffix: what it shows
 PICTURES = {
     "stress": "Vertical effective stress",
@@ -87,45 +85,11 @@ def steps_of(run: Results) -> str:
     return f"{run.summary['steps']} of {' to '.join(ends)} s"
 
 
-def steps_to_go(history: Table, done: float) -> float:
-    """Return how many steps a run takes still, of which a share of 1 is done: by the
-    last part of it. Steps grow with the square root of the depth, as stiffness does."""
-    share = done * history["time_s"] / history["time_s"][-1]
-    depth, step = history["penetration_m"], history["step"]
-    sinks = depth[-1] > depth[0] >= 0
-    path = np.sqrt(depth[0] + (depth[-1] - depth[0]) * share / done) if sinks else share
-    end = np.sqrt(depth[0] + (depth[-1] - depth[0]) / done) if sinks else 1.0
-    before = (1 - RECENT) * done
-    made = step[-1] - np.interp(before, share, step)
-    return float(made / (path[-1] - np.interp(before, share, path)) * (end - path[-1]))
-
-
-def remaining_of(run: Results, done: float) -> float | None:
-    """Return how long a run takes still (s), of which a share of 1 is done: by the
-    time of its steps since its first frame, as the number of points grows somewhat
-    longer; None where that is not known."""
-    history, lock = run.history, run.directory / ".lock"
-    if not lock.is_file() or not 0 < done < 1:
-        return None
-    if not {"step", "penetration_m"} <= set(history) or not history["time_s"][-1] > 0:
-        return None
-    begin = lock.stat().st_mtime - 1.0  # a restart has frames of before
-    written = [(time, files[0].stat().st_mtime) for time, files in run.frames("grid")]
-    start = next(((t, when) for t, when in written if when >= begin), None)
-    if start is None:
-        return None
-    took = (run.directory / "history.csv").stat().st_mtime - start[1]
-    made = history["step"][-1] - np.interp(start[0], history["time_s"], history["step"])
-    if made <= 0 or took <= 0:
-        return None
-    return float(took / made * steps_to_go(history, done) * (1 + GROWTH * (1 - done)))
-
-
 def progress_of(run: Results) -> tuple[float, str]:
     """Return how much of a run is done (%), and in words how long it takes still."""
     known = run.known.get("progress") or {}
     done = float(known.get("fraction_done") or 0)
-    left = remaining_of(run, done) or known.get("remaining_s")
+    left = known.get("remaining_s")
     words = f"{100 * done:.0f} % done"
     return 100 * done, words + (f", about {duration(left)} left" if left else "")
 

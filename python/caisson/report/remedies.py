@@ -15,6 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.design import shell
+from caisson.design.suction_installation import bisect
+from caisson.nature import GRAVITY
 from caisson.plot import limits, suction_methods, theory
 from caisson.report.installation import NOTHING, Installation
 from caisson.report.scene import end_of
@@ -22,7 +24,7 @@ from caisson.results import Results
 
 OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
 LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
-STEEL_WEIGHT = (7850 - 1025) * 9.81e-3  # kN/m3, in water
+STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
@@ -151,12 +153,11 @@ def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None
 def reach(planned: Planned, name: str, size: float) -> float:
     """Return the depth (m) reached with another diameter or wall (m)."""
     run, found = planned.run, planned.found
-    low, high = float(found.depth[-1]), planned.depth
-    for _ in range(12):
-        middle = (low + high) / 2
-        enough = is_enough(Planned(run, found, middle), name, size)
-        low, high = (middle, high) if enough else (low, middle)
-    return low
+
+    def is_beyond(depth: float) -> bool:
+        return not is_enough(Planned(run, found, depth), name, size)
+
+    return bisect(is_beyond, float(found.depth[-1]), planned.depth, 12)[0]
 
 
 def weight_of(planned: Planned) -> float | None:
@@ -165,11 +166,9 @@ def weight_of(planned: Planned) -> float | None:
     low, high = sizes.weight, sizes.weight + planned.required * sizes.area
     if not planned.suffices(sizes._replace(weight=high)):
         return None
-    for _ in range(30):
-        middle = (low + high) / 2
-        enough = planned.suffices(sizes._replace(weight=middle))
-        low, high = (low, middle) if enough else (middle, high)
-    return high
+    return bisect(lambda x: planned.suffices(sizes._replace(weight=x)), low, high, 30)[
+        1
+    ]
 
 
 def wall_of(planned: Planned) -> float | None:

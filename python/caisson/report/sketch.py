@@ -48,42 +48,39 @@ class Drawing:
         """Return the pixel of a depth."""
         return 26 + self.scale * (depth - self.top)
 
+    def add(self, tag: str, words: str = "", **attributes: str | float) -> None:
+        """Add an element; numbers are pixels."""
+        texts = {
+            name.strip("_").replace("_", "-"): x if isinstance(x, str) else f"{x:.1f}"
+            for name, x in attributes.items()
+        }
+        inside = " ".join(f'{name}="{text}"' for name, text in texts.items())
+        self.parts.append(f"<{tag} {inside}>{html.escape(words)}</{tag}>")
+
     def box(self, kind: str, left: float, top: float, right: float, low: float) -> None:
         """Add a rectangle."""
         x, y = self.x(left), self.y(top)
         width, height = self.x(right) - x, self.y(low) - y
-        self.parts.append(
-            f'<rect class="{kind}" x="{x:.1f}" y="{y:.1f}" width="{width:.1f}"'
-            f' height="{height:.1f}"/>'
-        )
+        self.add("rect", class_=kind, x=x, y=y, width=width, height=height)
 
     def wall(self, left: float, top: float, width: float, tip: Tip) -> None:
         """Add a wall with its tip, from left and down to the depth of the tip."""
-        shoulder = tip.depth - tip.slope * width / 2
-        corners = [
-            (left, top),
-            (left, shoulder),
-            (left + width / 2, tip.depth),
-            (left + width, shoulder),
-            (left + width, top),
+        shoulder, right = tip.depth - tip.slope * width / 2, left + width
+        lowest = [(left + width / 2, tip.depth)] if tip.slope else []
+        corners = [(left, top), (left, shoulder), *lowest, (right, shoulder)]
+        points = [
+            f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in [*corners, (right, top)]
         ]
-        if not tip.slope:
-            del corners[2]
-        points = " ".join(f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in corners)
-        self.parts.append(f'<polygon class="steel" points="{points}"/>')
+        self.add("polygon", class_="steel", points=" ".join(points))
 
     def line(self, kind: str, *ends: float) -> None:
         """Add a line between two pixels."""
-        x1, y1, x2, y2 = (f"{end:.1f}" for end in ends)
-        text = f'<line class="{kind}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>'
-        self.parts.append(text)
+        x1, y1, x2, y2 = ends
+        self.add("line", class_=kind, x1=x1, y1=y1, x2=x2, y2=y2)
 
     def text(self, x: float, y: float, words: str, anchor: str = "start") -> None:
         """Add a text at a pixel."""
-        self.parts.append(
-            f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">'
-            f"{html.escape(words)}</text>"
-        )
+        self.add("text", words, x=x, y=y, text_anchor=anchor)
 
     def height(self, x: float, top: float, low: float, words: str) -> None:
         """Add a dimension line of a depth range beside the pixel x."""

@@ -177,8 +177,8 @@ def refuse_quick_clay(layers: Sequence[Layer]) -> None:
         if walls.is_quick_clay(layer):
             raise SuggestError(
                 f"layer {i}: phi = {walls.angle_of(layer)} beside a cohesion is no"
-                " drained strength, and with --weight water would flow through it as"
-                f" through sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
+                " drained strength, and water would flow through it as through sand."
+                f" Give undrained clay as su = {layer.value('Cohesion')} Pa"
             )
 
 

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson import density_law as names
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
 from caisson.design.cone_estimates import CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY
@@ -35,7 +36,6 @@ MODULUS_REMARK = f"{ASSUMPTION}: {CLAY_RATIOS[1]:g} s_u (Duncan & Buchignani 197
 NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
 SINE = math.sin(math.radians(24))
 LIGHTEST = 15e3  # N/m3, of the wet clay
-GRAINS = 2650.0  # kg/m3
 MOBILIZED = 0.95  # of the strength, at most, by K0
 USUAL_WEIGHT = 9.7e3  # N/m3 in water, of a layer above whose weight is no number
 RATIO = "Overconsolidation ratio"
@@ -66,7 +66,7 @@ def number_of(layer: Layer, name: str, depth: float) -> float | None:
 
 def weight_of(layer: Layer, depth: float) -> float:
     """Return the unit weight in water (N/m3) at a depth."""
-    grains = number_of(layer, "Solid density", depth) or GRAINS
+    grains = number_of(layer, "Solid density", depth) or QUARTZ_DENSITY
     porosity = number_of(layer, "Porosity", depth)
     void_ratio = number_of(layer, "Void ratio", depth)
     density = number_of(layer, names.DENSITY, depth)
@@ -78,7 +78,7 @@ def weight_of(layer: Layer, depth: float) -> float:
         porosity = void_ratio / (1 + void_ratio)
     if porosity is None:
         return USUAL_WEIGHT
-    return (1 - porosity) * (grains * ground.GRAVITY - ground.WATER)
+    return (1 - porosity) * (grains * GRAVITY - WATER)
 
 
 def wet_weight_of(strength: float, total_stress: float) -> float:
@@ -116,10 +116,8 @@ def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]
     for _ in range(ROUNDS):
         stress = reach.stress(reach.middle, weight)
         strength = strength_of(layer, reach.middle, stress)
-        weight = (
-            wet_weight_of(strength, stress + ground.WATER * reach.middle) - ground.WATER
-        )
-    grains = number_of(layer, "Solid density", reach.middle) or GRAINS
+        weight = wet_weight_of(strength, stress + WATER * reach.middle) - WATER
+    grains = number_of(layer, "Solid density", reach.middle) or QUARTZ_DENSITY
     porosity = ground.porosity_of(weight / 1e3, grains, False)
     why = f"{weight / 1e3:.2g} kN/m3 in water by s_u (Robertson & Cabal 2010)"
     return weight, [Entry("Porosity", f"{porosity:.3f}", f"{ASSUMPTION}: {why}")]

@@ -4,18 +4,12 @@ from typing import Any
 
 from caisson import density_law
 from caisson.design.cone_texts import SHOWN, text_of
+from caisson.nature import QUARTZ_DENSITY
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED, BY_STRESS
 from caisson.suggest.walls import ADHESION_OF_CLAY
-from caisson.design.cone_estimates import (
-    ENDS,
-    K0,
-    REFERENCE,
-    SOLID_DENSITY,
-    WEIGHT,
-    Estimates,
-)
+from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
 from caisson.design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
@@ -153,7 +147,7 @@ def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
         *strength_of(found, e),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
         Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
-        Entry("Solid density", f"{SOLID_DENSITY:g}", ASSUMPTION),
+        Entry("Solid density", f"{QUARTZ_DENSITY:g}", ASSUMPTION),
     ]
 
 

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
 from caisson.design.correlations import MODULUS_RATIOS
 from caisson.design.density import (
@@ -38,7 +39,6 @@ ONE_ANGLE = "angle"  # the choice of a law with one friction angle, from a cone 
 SAND = "Sand"  # in place of an entry: one of WORDS
 KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
 OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
-GRAVITY, SOLID, WATER = 9.81, 2650.0, 1000.0  # m/s2, kg/m3
 OF_CONE = "2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)"
 # of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
 WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any density")
@@ -159,7 +159,7 @@ def numbers_of(
     """Return what is assumed of sand of a relative density, at the start, beside the
     entries that are given. With an overconsolidation ratio K0 is left to the program.
     """
-    weight = (SOLID - WATER) * GRAVITY / (1 + void_ratio) / 1e3
+    weight = (QUARTZ_DENSITY - WATER_DENSITY) * GRAVITY / (1 + void_ratio) / 1e3
     own, angle = list[Entry](), "30"  # of Karlsruhe sand
     if law == names.LAW:
         angle = f"{CRITICAL_ANGLE:g}"
@@ -191,7 +191,7 @@ def numbers_of(
         *([] if "Overconsolidation ratio" in given else at_rest(angle)),
         Entry(
             "Solid density",
-            f"{SOLID:g}",
+            f"{QUARTZ_DENSITY:g}",
             f"{ASSUMPTION}: quartz; the unit weight in water is {weight:.3g} kN/m3",
         ),
     ]

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 from caisson import density_law as names
+from caisson.nature import QUARTZ_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest import clay, sand
 from caisson.design import expression, quantity
@@ -21,7 +22,7 @@ ASSUMED = {
     "Dilatancy angle": "0",
     "Cohesion": "0",
     "Porosity": "0.4",
-    "Solid density": "2650",
+    "Solid density": f"{QUARTZ_DENSITY:g}",
 }
 NEEDED = ("Friction angle", "Youngs modulus")
 # what is not assumed, by what is given in its place
