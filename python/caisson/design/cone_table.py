@@ -20,8 +20,7 @@ Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its c
 
 
 class Head(NamedTuple):
-    """A column as the file has it: its place, its name there, the quantity that this
-    means ("" for none), its unit as written, and the row that says so."""
+    """A column of the file: place, name, quantity ("" for none), unit and row."""
 
     place: int
     text: str
@@ -49,8 +48,7 @@ class Facts(NamedTuple):
 
 @dataclass
 class Table:
-    """The rows of a test, and its columns by quantity; heads that were not read, where
-    units are, the push of each row, and whether rows are in the order of depth."""
+    """The rows of a test, its columns by quantity, and how they are to be read."""
 
     columns: Mapping[str, Column]
     rows: Rows
@@ -69,8 +67,7 @@ def cell_of(cells: Sequence[str], place: int) -> str:
 
 
 def value_of(text: str) -> float:
-    """Return a number with a decimal point or comma, nan of an empty cell and of one
-    that stands for no value. Raises ValueError."""
+    """Return a number, nan of an empty cell and of a void. Raises ValueError."""
     if not text:
         return nan
     value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)

@@ -25,8 +25,7 @@ def text_of(value: float) -> str:
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:
-    """Return computed over method, from that of the upper to that of the lower case;
-    an end is open where the method has 0 or no answer."""
+    """Return computed over method, upper to lower case, or an open end."""
     if not computed > 0:
         return ""
     least = computed / high if math.isfinite(high) and high > 0 else None
@@ -43,8 +42,7 @@ def ratio_in_words(computed: float, low: float, high: float) -> str:
 
 
 def is_beyond(computed: float, low: float, high: float) -> bool:
-    """Return whether computed over method is beyond LIKE in both cases. A method may
-    have 0 (no suction is needed), or nan in its upper case (none suffices)."""
+    """Return whether computed over method is beyond LIKE in both cases."""
     if not computed > 0 or math.isnan(low):
         return False
     most = computed / low if low > 0 else math.inf
@@ -181,8 +179,7 @@ class ByCone(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """Horizontal over vertical stress at rest on the walls of a run, means over them,
-    and its ends in the layers that the skirt reaches."""
+    """Means of horizontal over vertical stress on the walls of a run, and its ends."""
 
     inner: float
     outer: float

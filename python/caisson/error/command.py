@@ -83,8 +83,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def refinements(cells: int, even: bool) -> list[float]:
-    """Return the numbers for Grid/Refinement of a body with so many cells across its
-    wall, which must be even for a triangular tip; 0: a body without a wall."""
+    """Return Grid/Refinement of bodies with so many cells across (0: none)."""
     if not cells:
         return PLAIN
     wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
@@ -108,8 +107,7 @@ def chosen_meshes(
 
 
 def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float]]:
-    """Return the runs with other numerics: what they change in the entries of the
-    scene, and the factor that extrapolates to the limit."""
+    """Return what runs with other numerics change, and factors to the limit."""
     found: dict[str, tuple[dict[str, Any], float]] = {}
     tolerance = entries["Time/Inertia tolerance"]
     if tolerance != "none":
@@ -174,8 +172,7 @@ class Plan:
             )
 
     def choose(self, known: list[float], numbers: Sequence[int]) -> None:
-        """Choose the first of these numbers of windows that leaves a part of the budget
-        for a second mesh, the last one where none does, and the meshes."""
+        """Choose windows and meshes that the budget allows, the most windows first."""
         for number in numbers:
             self.windows = windows_of(self.entries, number)
             self.seconds = self.size.seconds * self.share_of_way()
@@ -194,8 +191,7 @@ class Plan:
 
     @property
     def cost_of_changes(self) -> float:
-        """The cost of all runs with other numerics over that of one without. Windows
-        have them at one depth, and there the run without once more."""
+        """The cost of all runs with other numerics over that of one without."""
         if not self.windows:
             return COST_OF_CHANGES
         return (1 + COST_OF_CHANGES) / len(self.windows)

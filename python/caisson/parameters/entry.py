@@ -197,8 +197,7 @@ def read(name: str, given: Mapping[str, Any]) -> Parameter:
 
 
 def read_all(tables: object) -> list[Parameter]:
-    """Return the parameters of a study by name, formulas after all others, in an
-    order in which they can be computed. Raises StudyError."""
+    """Return parameters, formulas last and in order. Raises StudyError."""
     if not isinstance(tables, dict) or not tables:
         raise StudyError(
             'a study of parameters needs at least one [parameters."Section/Entry"]'

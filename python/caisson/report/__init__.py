@@ -17,8 +17,7 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 def write(directory: Path, rate: float | None = None) -> Path:
-    """Write the report of a run, with a pump for a rate of penetration (m/h), or an
-    assumed one; return its path. Raises ResultsError."""
+    """Write the report, with a pump for a rate (m/h); return its path."""
     from caisson.report import page, verdict
     from caisson.report.installation import Rate
 
