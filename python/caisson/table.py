@@ -37,6 +37,11 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
     return "\n".join([text(lines[0]), rule, *map(text, lines[1:])])
 
 
+def by_rows(columns: Mapping[str, Iterable[str]]) -> dict[str, Any]:
+    """Return columns of text as heads and rows, as pages take them."""
+    return {"heads": list(columns), "rows": list(map(list, zip(*columns.values())))}
+
+
 def write_csv(
     path: Path,
     columns: Sequence[str],

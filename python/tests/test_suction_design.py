@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Installation by suction in sand, against formulas worked out by hand."""
 import unittest
+from collections.abc import Callable
 from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, isnan, pi, radians, tan
@@ -23,7 +24,7 @@ DO, T, GAMMA, K = 6.0, 0.05, 9e3, 0.8
 DI, K_TAN = DO - 2 * T, K * tan(radians(25))
 RIM = pi * (DO - T) * T  # area of the end of the wall
 AREA = pi * DI**2 / 4
-CRITICAL_SUCTIONS = {
+CRITICAL_SUCTIONS: dict[str, Callable[[float, float, float], float]] = {
     "Houlsby & Byrne (2005)": fits.houlsby_byrne,
     "Senders & Randolph (2009)": fits.senders_randolph,
     "Ibsen & Thilsted (2011)": fits.ibsen_thilsted,

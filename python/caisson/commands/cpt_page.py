@@ -2,14 +2,13 @@
 """Runs the study of a cone test, and writes report.html: the test, layers, and the
 forces of all estimates beside the design methods, on one page."""
 import argparse
-import base64
 import html
 import re
 from pathlib import Path
 
 import numpy as np
 
-from caisson.template import template
+from caisson.template import picture_of, template
 from caisson import disk, plot, report, study_command
 from caisson.design import cone_texts
 from caisson.parameters import methods
@@ -89,11 +88,6 @@ def with_subscripts(text: str) -> str:
     """Return a text as HTML, with q_c and its like as one writes them."""
     safe = html.escape(text).replace("phi (deg)", "φ (°)")
     return re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe)
-
-
-def picture_of(path: Path) -> str:
-    """Return a picture as data for the page."""
-    return base64.b64encode(path.read_bytes()).decode("ascii")
 
 
 def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:

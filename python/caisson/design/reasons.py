@@ -113,15 +113,14 @@ def state_of_walls(found: Compared) -> str:
     k, k0 = found.k_tan_delta, found.undisturbed
     if not (math.isfinite(k) and k0 > 0):
         return ""
-    name = "K tan \N{GREEK SMALL LETTER DELTA}"
     if k > RAISED * k0:
         return (
-            f"; the sand that the wall has pushed aside has raised {name} outside from"
+            f"; the sand that the wall has pushed aside has raised {K_TAN} outside from"
             f" {k0:.2f} in undisturbed ground to {k:.2f}"
         )
     return (
-        f"; the walls do not grip yet, and {name} outside is {k:.2f}, where undisturbed"
-        f" ground has {k0:.2f}"
+        f"; the walls do not grip yet, and {K_TAN} outside is {k:.2f}, where"
+        f" undisturbed ground has {k0:.2f}"
     )
 
 

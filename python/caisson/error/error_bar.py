@@ -67,8 +67,8 @@ def values_of(run: StudyRun, quantity: Quantity, depths: np.ndarray) -> np.ndarr
 
 def refinement_of(run: StudyRun) -> float:
     """Return the Grid/Refinement in effect in a finished run."""
-    entries = {**run.results.summary.get("entries", {}), **run.run.entries}
-    return float(entries.get("Grid/Refinement", 1))
+    given = run.run.entries.get("Grid/Refinement")
+    return float(given or run.results.entry("Grid/Refinement") or 1)
 
 
 def relative(part: np.ndarray, whole: np.ndarray) -> np.ndarray:

@@ -201,12 +201,12 @@ def begin_of(force: np.ndarray) -> tuple[int, float]:
 
 def speed_of_tolerance(run: LoadedRun) -> float:
     """Return the speed (m/s) to which the inertia tolerance refers."""
-    history, entries = run.results.history, run.results.summary.get("entries", {})
+    history, entry = run.results.history, run.results.entry
     steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
     speeds = [*abs(steps)]
     # which slows the table down
-    if entries.get("Rigid body/Largest Mach number", "unlimited") == "unlimited":
-        table = entries.get("Rigid body/Velocity table", "")
+    if entry("Rigid body/Largest Mach number") in ("", "unlimited"):
+        table = entry("Rigid body/Velocity table")
         speeds += [abs(float(v)) for v in re.findall(r":\s*([^,\s]+)", table)]
     return float(max(speeds))
 

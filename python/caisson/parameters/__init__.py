@@ -17,30 +17,10 @@ because the parameters make the runs:
     cone           a file with a cone test, beside this one: the design methods stand
                    beside the runs in methods.png and methods.csv
 
-    [parameters."Soil/Layer 1/Friction angle"]   # and one of
-    values = [28, 31, 34]                  # numbers or words
-    range = {from = 28, to = 36, n = 5}    # logarithmic = true: equal ratios
-    distribution = "normal"                # caisson.parameters.distributions
-    mean = 33
-    standard_deviation = 2
-
-    [parameters.phi]                       # a name of one's own says the entry,
-    entry = "Soil/Layer 1/Friction angle"  # or several in entries = [...]
-    base = 33                              # of one at a time, default: the median of
-                                           # a distribution, or the value of the scene
-    [parameters.su]                        # times what stands there: an expression
-    times = {"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}
-    distribution = "normal"
-    mean = 1
-    standard_deviation = 0.2
-
-    [parameters.dilatancy]                 # follows from others, by their names
-    entry = "Soil/Layer 1/Dilatancy angle"
-    formula = "max(0, phi - 30)"           # caisson.parameters.formula
-
-    [parameters.sand.choices]              # values that set several entries
-    loose = {"Soil/Layer 1/Porosity" = 0.44, "Soil/Layer 1/Friction angle" = 29}
-    dense = {"Soil/Layer 1/Porosity" = 0.38, "Soil/Layer 1/Friction angle" = 36}
+The tables [parameters.NAME] are in the manual (doc/how_to/studies.md): values, range,
+choices, times, formula or distribution of the entry of this name, or of entry = "..."
+or entries = [...]; base is the value of one at a time, by default the median of a
+distribution or the value of the scene.
 
 A distribution is taken at its quantiles of 5 and 95 % where one parameter changes at a
 time. All runs are checked before the first one starts. Results, besides those of the

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
-from caisson.plot import theory
+from caisson.plot import design, theory
 from caisson.plot.small import over_depth, with_note, write_beside
 from caisson.table import write_columns
 from caisson import disk
@@ -85,11 +85,11 @@ def write(path: Path, found: Answers) -> Path:
     columns: dict[str, np.ndarray] = {DEPTH: found.depth}
     for name, force in zip(found.names, found.computed):
         columns[f"{TOTAL} [{name}]"] = force
-    for i, method in enumerate(theory.METHODS):
+    for i in range(len(theory.METHODS)):
         for name, of_run in zip(found.names, found.answers):
             for case, parts in of_run[i].forces.items():
-                head = f"{method.key}_{case.replace(' ', '_')}_{TOTAL} [{name}]"
-                columns[head] = parts["total"]
+                head = design.column_of(of_run[i], case, "total")
+                columns[f"{head} [{name}]"] = parts["total"]
     return write_columns(path, columns)
 
 

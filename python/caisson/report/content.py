@@ -14,6 +14,7 @@ from caisson.plot.band import LABEL, range_of
 from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
+from caisson.table import by_rows
 from caisson.shown import Units, units_for
 from caisson.report.installation import NOTHING, Installation, texts_of
 from caisson.report.pull import PULL, is_pull, pull_parts
@@ -345,9 +346,9 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     stress = 1e3 * max(float(np.abs(x).max()) for x in list(columns.values())[1:])
     of_length = run.shown.smaller & {"m"}
     shown = Units(units_for(np.inf, stress, np.inf).smaller | of_length)
-    texts = [texts_of(shown.factor_of(head) * x) for head, x in columns.items()]
-    heads = [shown.named(head) for head in columns]
-    return {"heads": heads, "rows": [list(row) for row in zip(*texts)]}
+    return by_rows(
+        {shown.named(h): texts_of(shown.factor_of(h) * x) for h, x in columns.items()}
+    )
 
 
 def averaged(run: Results) -> str:

@@ -19,6 +19,7 @@ from caisson.plot import design, limits
 from caisson.plot.forces import penetration
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
+from caisson.table import by_rows
 from caisson.shown import USUAL, Units
 from caisson.report.scene import plug_area
 
@@ -225,7 +226,7 @@ def in_range(
 def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
     """Return heads and rows of columns that are not empty."""
     known = {head: texts for head, texts in columns.items() if texts}
-    return {"heads": list(known), "rows": [list(row) for row in zip(*known.values())]}
+    return by_rows(known)
 
 
 def texts_of(values: np.ndarray) -> list[str]:

@@ -15,6 +15,7 @@ from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
 from caisson.design.method import Forces
+from caisson.table import by_rows
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
 from caisson.report.installation import needs_suction
@@ -67,8 +68,7 @@ def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
             title = f"{title}: {table['title'][0].lower()}{table['title'][1:]}"
         part = {depth: columns[depth], **part}
         if len(part) > 1:
-            rows = [list(row) for row in zip(*part.values())]
-            found.append({"title": title, "heads": list(part), "rows": rows})
+            found.append({"title": title, **by_rows(part)})
     return found
 
 
@@ -88,20 +88,12 @@ def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str
             return shown.factor_of(head)
         return shown.factor_of(title)
 
-    texts = [
-        [
-            cell
-            if isinstance(cell, str)
-            else reasons.text_of(factor(head) * float(cell))
-            for cell in values
-        ]
-        for head, values in columns.items()
-    ]
-    return {
-        "title": shown.named(title),
-        "heads": [shown.named(head) for head in columns],
-        "rows": [list(row) for row in zip(*texts)],
-    }
+    def text(head: str, cell: Any) -> str:
+        is_text = isinstance(cell, str)
+        return cell if is_text else reasons.text_of(factor(head) * float(cell))
+
+    texts = {shown.named(h): [text(h, x) for x in c] for h, c in columns.items()}
+    return {"title": shown.named(title), **by_rows(texts)}
 
 
 def beside(

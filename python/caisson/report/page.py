@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a report: contents, pictures and scripts in one file."""
-import base64
 import json
 import re
 from pathlib import Path
@@ -8,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.template import template
+from caisson.template import picture_of, template
 from caisson import plot
 from caisson.plot import limits
 from caisson.lock import is_locked
@@ -48,8 +47,7 @@ def pictures_of(run: Results) -> list[dict[str, str]]:
     for name, shows in PICTURES.items():
         path = run.directory / f"{name}.png"
         if path.is_file():
-            data = base64.b64encode(path.read_bytes()).decode("ascii")
-            found.append({"name": name, "shows": shows, "data": data})
+            found.append({"name": name, "shows": shows, "data": picture_of(path)})
     return found
 
 
