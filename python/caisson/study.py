@@ -353,9 +353,8 @@ def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
 def execute(
     shares: Sequence[Share], again: bool = False, time_limit: float | None = None
 ) -> None:
-    """Run all that are not complete, share by share, in each of them the longest first.
-    A run that cannot be made says why in its trouble. A bar, or in a log file a line
-    now and then, shows how far all of them are."""
+    """Run all that are not complete, share by share, the longest first, behind a bar. A
+    run that cannot be made says why in its trouble."""
     sorted_shares = [(longest_first(runs), n, ranks) for runs, n, ranks in shares]
     ordered = [run for runs, _, _ in sorted_shares for run in runs]
 

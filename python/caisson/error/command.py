@@ -93,9 +93,8 @@ def refinements(cells: int, even: bool) -> list[float]:
 def chosen_meshes(
     known: list[float], seconds: float, budget: float, changes: float
 ) -> list[float]:
-    """Return the refinements that the budget (s) allows, where a run of the scene takes
-    some seconds: a run costs the cube of its refinement; changes: the cost of those
-    with other numerics over that of the coarsest."""
+    """Return the refinements that the budget (s) allows, by the seconds of the scene.
+    changes: cost of runs with other numerics over that of the coarsest."""
     chosen = [r for r in known if r <= 1]
     left = budget - seconds * (sum(r**3 for r in chosen) + changes * min(chosen) ** 3)
     for r in (r for r in known if r > 1):
@@ -288,9 +287,8 @@ class Plan:
         return True
 
     def mesh(self, r: float) -> dict[str, Any]:
-        """Return the entries of a mesh, none of that of the scene. Cells that are
-        halved at the tip are halved less often on a coarser one: lines of the mesh
-        cannot be wider apart than the wall."""
+        """Return the entries of a mesh. Cells at the tip are halved less often on a
+        coarser one, as lines of the mesh cannot be wider apart than the wall."""
         if r == 1:
             return {}
         found: dict[str, Any] = {
@@ -345,9 +343,8 @@ class Plan:
 
 
 def set_depths(study: Study, windows: Sequence[Window]) -> None:
-    """Set the depths of the bar: those of the windows, or all that the run of the scene
-    passes on its way down, without half a window at both ends and without the first
-    0.3 m."""
+    """Set the depths of the bar: those of the windows, or of the way down without half
+    a window at both ends and the first 0.3 m."""
     if windows:
         first, second, last = windows[0].depth, windows[1].depth, windows[-1].depth
         study.keys["depths"] = [first, last, second - first]

@@ -93,9 +93,8 @@ def share_of_tolerance(way: float, radius: float) -> float:
 
 
 def windows_of(scene: Entries, number: int) -> list[Window]:
-    """Return so many windows of a scene by its entries: none of a body without a wall
-    or with another way than one down to a depth at one speed, and of a way that is
-    short or hardly longer than they are."""
+    """Return so many windows of a scene: none of a body without a wall, of another way
+    than one down at one speed, and of a short way."""
     names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
     names += ["Rigid body/Initial penetration", "Time/End penetration"]
     try:
@@ -157,9 +156,8 @@ class WindowedRun(Run):
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run the windows that have no result, or all of them again where none is
-        missing, and write the history of the means; see Run. Raises RunError also where
-        a window does not reach its depth."""
+        """Run the missing windows, or all again where none is, and write the history of
+        the means; see Run. Raises RunError where a window ends early."""
         again = self.is_complete()
         (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []
