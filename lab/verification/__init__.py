@@ -18,7 +18,7 @@ Each problem is a study; a row of the table is one of its
 or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    quantity = "tip"                      # as caisson.error.error_bar names it
+    quantity = "tip"                      # as caisson.error_bounds names it
     depth = 2                             # m
 """
 import math
@@ -27,6 +27,7 @@ from typing import Any
 
 import numpy as np
 
+from caisson import error_bounds
 from caisson.results import ResultsError, read_table
 from caisson.study import Options, Study, StudyError, StudyRun
 from caisson.table import number
@@ -109,12 +110,12 @@ def error_bar_row(row: Row, study: Study) -> Row:
     nearest = int(np.argmin(np.abs(bars["penetration_m"] - row["depth"])))
     if abs(bars["penetration_m"][nearest] - row["depth"]) > NEAR:
         raise StudyError(f"{path.name} has no depth {row['depth']} m")
-    quantity = error_bar.QUANTITIES.get(row["quantity"])
-    if quantity is None or quantity.named("below") not in bars:
+    quantity = error_bounds.QUANTITIES.get(row["quantity"])
+    if quantity is None or quantity.bar_column("below") not in bars:
         raise StudyError(f"{path.name} has no quantity {row['quantity']!r}")
-    bar = max(float(bars[quantity.named(s)][nearest]) for s in error_bar.SIDES)
+    bar = max(float(bars[quantity.bar_column(s)][nearest]) for s in error_bar.SIDES)
     if not quantity.is_relative:
-        bar /= abs(float(bars[quantity.column][nearest]))
+        bar /= abs(float(bars[quantity.column()][nearest]))
     return {
         "computed": number(bar, 3),
         "exact": "",

@@ -10,15 +10,6 @@ from caisson.paths import PROGRAM, scene_or_study
 from caisson.runner import Entries, Run, RunError
 
 
-def check_program(program: Path) -> None:
-    """Raise RunError where there is no program to call."""
-    if not os.access(program, os.X_OK):
-        raise RunError(
-            f"no program {program}: `scripts/build` builds it, and the environment"
-            " variable CAISSON_MPM_PROGRAM names another one"
-        )
-
-
 def run(
     scene: str | Path,
     set: Entries | None = None,
@@ -45,7 +36,11 @@ def run(
     fails, also if one of its checks does. An interrupt (Ctrl-C, or that of a notebook)
     stops the run with a checkpoint.
     """
-    check_program(Path(program))
+    if not os.access(program, os.X_OK):
+        raise RunError(
+            f"no program {program}: `scripts/build` builds it, and the environment"
+            " variable CAISSON_MPM_PROGRAM names another one"
+        )
     if ranks is not None and ranks < 1:
         raise RunError(f"ranks is {ranks}: a run needs 1 or more")
     if (ranks or 1) > 1 and not cores.can_start_ranks():

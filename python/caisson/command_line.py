@@ -11,14 +11,14 @@ import difflib
 import importlib
 import os
 import re
+import subprocess
 import sys
 import traceback
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn, TextIO, cast
 
-from caisson import needed, paths
-from caisson import disk
+from caisson import disk, needed, paths
 from caisson.disk import InputError
 from caisson.terminal import PlainText
 
@@ -35,8 +35,7 @@ TRACEBACK = "CAISSON_TRACEBACK"
 
 
 def words_on(error: Exception) -> str:
-    """Return in one line what a file has led to: which files were read, and where the
-    program did not understand them."""
+    """Return in one line which files were read, and where they were not understood."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     kind = type(error).__name__
     text = disk.one_line(f"{kind}: {error}" if str(error) else kind)[:200]
@@ -64,8 +63,7 @@ def help_of(groups: Groups) -> str:
 
 
 class Parser(argparse.ArgumentParser):
-    """Says in a line what is wrong, with the nearest option to one that is not known,
-    and not all options beside it."""
+    """Says in a line what is wrong, with the nearest option, and does not list all."""
 
     def error(self, message: str) -> NoReturn:
         """End the process."""
@@ -84,9 +82,8 @@ def run_command(
     late: Collection[str] = (),
     elsewhere: str = "",
 ) -> int:
-    """Run one subcommand; return its exit status. late: those that import what they
-    need only after they have computed or read something; elsewhere: where other
-    commands are, for who asks for one of them."""
+    """Run one subcommand; return its exit status. late: those that compute before they
+    import; elsewhere: where other commands are."""
     commands = commands_of(groups)
     if argv and argv[0] not in commands and not argv[0].startswith("-"):
         near = difflib.get_close_matches(argv[0], commands, n=1)
@@ -134,6 +131,18 @@ def run_command(
             raise
         print(f"{name}: {words_on(error)}", file=sys.stderr)
     return 1
+
+
+def for_each(name: str, places: Sequence[Path], do: Callable[[Path], None]) -> int:
+    """Do something for each place; say what fails, and return 1 then, else 0."""
+    status = 0
+    for place in places:
+        try:
+            do(place)
+        except (InputError, OSError, subprocess.CalledProcessError) as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            status = 1
+    return status
 
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:

@@ -8,14 +8,14 @@ then the required suction and the margin to piping, where there are any, and
   KE/W       largest kinetic energy over external work from 1 m on (%)
 and the largest counts of points in the body and of limiter firings.
 """
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from caisson import curves
-from caisson.results import Results, ResultsError, Table
+from caisson.command_line import for_each
+from caisson.results import Results, Table
 
 DEPTHS = (1, 1.5, 2, 3, 4, 5, 6, 6.4)
 
@@ -83,11 +83,8 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
 
 def print_all(directories: Sequence[Path], at: Sequence[float]) -> int:
     """Print the numbers of each run; a run that cannot be read is named."""
-    status = 0
-    for directory in directories:
-        try:
-            print("\n".join(describe(directory, at)))
-        except ResultsError as error:
-            print(f"compare: {error}", file=sys.stderr)
-            status = 1
-    return status
+
+    def print_one(directory: Path) -> None:
+        print("\n".join(describe(directory, at)))
+
+    return for_each("compare", directories, print_one)

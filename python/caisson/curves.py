@@ -22,8 +22,7 @@ FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
 def window_of(way: float) -> float:
-    """Return the width of the window on a way of this length (m): a quarter of a short
-    one."""
+    """Return the width of the window on a way (m): a quarter of a short one."""
     return min(FORCE_WINDOW, way / 4)
 
 
@@ -57,8 +56,7 @@ def window_means(
 
 
 def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the root of the mean square of values [n] about each position [n];
-    at the ends over the part of the window that there is."""
+    """Return the root mean square of values [n] about each position [n]."""
     near = [in_window(position, at, width) for at in position]
     return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
 
@@ -122,24 +120,21 @@ def way_down(position: np.ndarray) -> np.ndarray:
 
 
 def way_up(position: np.ndarray) -> np.ndarray:
-    """Return the numbers of the rows, from the deepest on, that are less deep than
-    all between it and them."""
+    """Return the rows, from the deepest on, that are less deep than all between."""
     deepest = int(np.argmax(position))
     return deepest + way_down(-position[deepest:])
 
 
 def main_way(position: np.ndarray) -> np.ndarray:
-    """Return the numbers of the rows of the way down, or of the way up where that is
-    ten times as long, as of a body that is pulled; without the row where it begins,
-    over which there is no mean."""
+    """Return the rows of the way down, or of the way up where that is ten times as
+    long, without the row where it begins, over which there is no mean."""
     down, up = (way[1:] for way in (way_down(position), way_up(position)))
     fall, rise = position.max() - position[0], position.max() - position[-1]
     return up if 10 * fall <= rise and rise > 0 else down
 
 
 def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarray:
-    """Return the multiples of the interval (m) that at least one of the curves, each
-    [n_rows], passes."""
+    """Return the multiples of the interval (m) that one of curves [n_rows] passes."""
     low = min(float(position.min()) for position in positions)
     high = max(float(position.max()) for position in positions)
     first = math.ceil(low / interval - 1e-6)
@@ -155,8 +150,7 @@ def down_to(end: float | None, depths: np.ndarray) -> np.ndarray:
 
 
 def round_depths(position: np.ndarray) -> np.ndarray:
-    """Return each meter that a curve passes, or finer steps of a short one; none of
-    a curve that stays where it is."""
+    """Return each meter, or finer step of a short curve, that a curve passes."""
     span = float(np.ptp(position))
     if span == 0:
         return np.empty(0)
@@ -172,15 +166,13 @@ def path_of(position: np.ndarray) -> np.ndarray:
 
 
 def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the mean in the window of travelled path about each row: [n]. The
-    first and the last half window are nan."""
+    """Return the mean in the window of path about each row: [n], nan at the ends."""
     path = path_of(position)
     return window_means(path, values, path, width)
 
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
-    """Return the standard deviation of a force about its running mean over the
-    mean of the latter, from FROM on (a share of 1)."""
+    """Return the scatter of a force as a share of its running mean, from FROM on."""
     mean = running_mean(position, force, FORCE_WINDOW)
     used = (position >= FROM) & np.isfinite(mean)
     if not used.any():
@@ -189,10 +181,9 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
 
 
 def largest_energy_ratio(history: Table) -> float:
-    """Return the largest kinetic energy over the external work, whatever its sign, from
-    FROM on (a share of 1). Of a body that is pulled out it is that of the rows with a
-    pull, and at least a tenth of the largest work: the soil springs up when the load on
-    it goes."""
+    """Return the largest kinetic energy over the external work from FROM on (a share of
+    1), of a body that is pulled out in rows with a pull and at least a tenth of the
+    largest work: the soil springs up when the load on it goes."""
     depth = history["penetration_m"]
     work = np.abs(history["external_work_J"] + history.get("water_work_J", 0.0))
     used = (depth >= FROM) & (work > 0)
@@ -213,8 +204,7 @@ def gradient_share(history: Table) -> np.ndarray:
 
 
 def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
-    """Return the means of a column on the way down at some depths [m] (m): [m]. nan
-    where the window is not whole."""
+    """Return the means of a column on the way down at depths [m] (m): [m], or nan."""
     rows = way_down(history["penetration_m"])[1:]
     depth = history["penetration_m"][rows]
     width = window_of(float(np.ptp(depth))) if len(depth) else FORCE_WINDOW
@@ -229,8 +219,7 @@ def depth_at(time: float, history: Table) -> float:
 def error_band(
     bounds: Table, name: str, unit: str = ""
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Return depths and running means of the lower and the upper bound of a quantity,
-    [n_rows] each, or None where the run has none."""
+    """Return depths and means of both bounds of a quantity, [n_rows] each, or None."""
     low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
     if low not in bounds or high not in bounds:
         return None

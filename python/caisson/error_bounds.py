@@ -24,32 +24,46 @@ BOUNDS = {"low": ("below", -1), "high": ("above", 1), "limit": ("shift", 1)}
 
 
 class Quantity(NamedTuple):
-    """A quantity of history.csv, and how columns of the error bar begin."""
+    """A quantity of history.csv that has an error bar: its name and unit there, how the
+    columns of the bar begin, and whether its errors are shares of it; tables show it in
+    shown_unit, times scale, with some digits."""
 
     name: str
     unit: str
     bar: str
-    is_relative: bool = False  # its errors are shares of it
+    is_relative: bool
+    shown_unit: str
+    scale: float
+    digits: int
 
     def column(self, bound: str = "") -> str:
         """Return its column in history.csv, or that of a bound."""
         return "_".join(filter(None, (self.name, bound, self.unit)))
 
-    def bar_column(self, part: str) -> str:
+    def bar_column(self, *parts: str) -> str:
         """Return its column in the file of errors."""
         unit = "" if self.is_relative else self.unit
-        return "_".join(filter(None, (self.bar, part, unit)))
+        return "_".join(filter(None, (self.bar, *parts, unit)))
+
+    def text(self, value: float) -> str:
+        """Return a value for a table."""
+        return f"{value * self.scale:.{self.digits}f}"
 
 
+FORCES = tuple(
+    Quantity(name, "N", name.split("_")[0], True, "kN", 1e-3, 0)
+    for name in ("tip_force", "inner_friction", "outer_friction", "total_force")
+)
 # The required suction crosses zero, where the weight no longer suffices, so that it and
 # what follows from it have absolute errors.
-QUANTITIES = (
-    Quantity("tip_force", "N", "tip", True),
-    Quantity("total_force", "N", "total", True),
-    Quantity("required_suction", "Pa", "required_suction"),
-    Quantity("exit_gradient_axis", "", "exit_gradient_axis"),
-    Quantity("plug_heave", "m", "plug_heave"),
+SUCTION = (
+    Quantity("required_suction", "Pa", "required_suction", False, "kPa", 1e-3, 2),
+    Quantity("exit_gradient_axis", "", "exit_gradient_axis", False, "", 1, 3),
+    Quantity("plug_heave", "m", "plug_heave", False, "mm", 1e3, 1),
 )
+QUANTITIES = {quantity.bar: quantity for quantity in FORCES + SUCTION}
+# those of which the bounds are kept with a run
+BOUNDED = [q for q in QUANTITIES.values() if not q.name.endswith("friction")]
 
 
 def beside(scene: Path) -> Path:
@@ -58,9 +72,8 @@ def beside(scene: Path) -> Path:
 
 
 def adopt(directory: Path, bar: Path | None = None) -> None:
-    """Keep an error bar with a run, and write its bounds: this one, or that beside its
-    scene if it is for this run, or the one kept before. Raises ResultsError where the
-    given one cannot be used."""
+    """Keep an error bar with a run, and write its bounds: this one, that beside its
+    scene, or the one kept. Raises ResultsError where this one cannot be used."""
     run = Results(directory)
     if not (run.scene and (directory / "history.csv").is_file()):
         return
@@ -84,8 +97,7 @@ def adopt(directory: Path, bar: Path | None = None) -> None:
 
 
 def is_of(run: Results, bar: Path) -> bool:
-    """Return whether an error bar was computed for the parameters of a run. Raises
-    ResultsError where it cannot be read."""
+    """Return whether a bar is of the parameters of a run. Raises ResultsError."""
     text = disk.read_text(bar, ResultsError)
     found = re.search(r"^# fingerprint: (\S+)", text, re.M)
     return found is not None and found[1] == run.summary.get("fingerprint")
@@ -110,12 +122,11 @@ def is_inside(bar: Table, depth: np.ndarray) -> np.ndarray:
 
 
 def bounds_of(history: Table, bar: Table) -> Table:
-    """Return the rows of a history within the depths of an error bar: of each of its
-    quantities the values and their bounds."""
+    """Return the rows of a history that a bar covers: values and their bounds."""
     rows = is_inside(bar, history[DEPTH])
     depth = history[DEPTH][rows]
     found = {DEPTH: depth}
-    for q in QUANTITIES:
+    for q in BOUNDED:
         if q.bar_column("below") in bar and q.column() in history:
             found[q.column()] = values = history[q.column()][rows]
             found |= changes(bar, q, values, depth)
@@ -123,13 +134,12 @@ def bounds_of(history: Table, bar: Table) -> Table:
 
 
 def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
-    """Return the bounds of means [n] of a run at depths [n], nan beyond its error bar;
-    empty without one."""
+    """Return the bounds of means [n] at depths [n], nan beyond the bar; or nothing."""
     if not (run.directory / NAME).is_file():
         return {}
     bar = read_table(run.directory / NAME)
     found: Table = {}
-    for q in QUANTITIES:
+    for q in BOUNDED:
         if q.column() in means:
             found |= changes(bar, q, means[q.column()], depth)
     inside = is_inside(bar, depth)

@@ -20,16 +20,8 @@ DEPTH, TOTAL, SUCTION = "penetration_m", "total_force_N", "required_suction_Pa"
 HEAVE, ROOM, BOILING = "plug_heave_m", "room_below_lid_m", "cavitation_suction_Pa"
 GRADIENT = "exit_gradient_over_critical"
 COLUMNS = (
-    "tip_force_N",
-    "inner_friction_N",
-    "outer_friction_N",
-    TOTAL,
-    curves.WITH_WATER,
-    "suction_Pa",
-    SUCTION,
-    BOILING,
-    "seepage_flow_m3_s",
-    HEAVE,
+    *("tip_force_N", "inner_friction_N", "outer_friction_N", TOTAL, curves.WITH_WATER),
+    *("suction_Pa", SUCTION, BOILING, "seepage_flow_m3_s", HEAVE),
 )
 FEW = 25  # rows of a way up, with fewer of which a median is over three of them
 FRICTION_RISE = 5e-3  # m, which mobilizes friction
@@ -60,8 +52,7 @@ class Way(NamedTuple):
 
 def multiples_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
     """Return the multiples of the interval (m) that a growing curve passes after its
-    start, or the rounder ones of curves.round_depths() where it is shorter than two of
-    them."""
+    start, or the rounder ones of curves.round_depths() of a short one."""
     if np.ptp(position) < 2 * interval:
         return curves.round_depths(position)
     found = curves.common_depths([position], interval)
@@ -105,9 +96,8 @@ def way_down(run: Results) -> Way:
 
 
 def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
-    """Return the numbers of the way down at depths (m), or at each half meter and at
-    the end, with the bounds of those that have an error bar: columns [n]; empty without
-    a way down."""
+    """Return the numbers of the way down at depths (m), or each half meter, with the
+    bounds of an error bar: columns [n]; empty without a way down."""
     if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
         return {}
     at = depths_of(way.depth) if at is None else at
@@ -122,9 +112,8 @@ def rows_of(table: Table) -> list[dict[str, float]]:
 
 
 def changes_of_suction(history: Table) -> list[float]:
-    """Return the penetrations (m) from which on suction acts, acts no longer, acts
-    again, and so on. A change for a short way does not count, but for one at the end.
-    """
+    """Return the penetrations (m) from which on suction acts, acts no longer, and so
+    on, without changes for a short way but at the end."""
     depth, acts = history[DEPTH], history["suction_Pa"] > 0
     least, starts = LEAST_HELD * np.ptp(depth), np.flatnonzero(np.diff(acts)) + 1
     for first, end in zip([0, *starts], [*starts, len(depth)]):
@@ -137,31 +126,27 @@ def changes_of_suction(history: Table) -> list[float]:
 
 
 def rest_of_run(history: Table) -> float | None:
-    """Return the penetration by weight alone (m), where suction begins; None where
-    there is none, or where it acts from the first row on."""
+    """Return the penetration by weight alone (m), where suction begins, or None."""
     changes = changes_of_suction(history)
     return changes[0] if changes and changes[0] > history[DEPTH][0] else None
 
 
 def sinks_on(history: Table) -> list[tuple[float, float]]:
-    """Return the ways (m) below the penetration by weight over which the weight
-    suffices again: there the caisson sinks on by itself."""
+    """Return the ways (m) on which the caisson sinks on by its weight again."""
     changes = [*changes_of_suction(history), float(history[DEPTH][-1])]
     return list(zip(changes[1::2], changes[2::2]))
 
 
 def pump_limit(run: Results) -> float | None:
     """Return Water/Largest suction in kPa, None without one."""
-    entries = run.summary.get("entries", {}) if run.scene else {}
     try:
-        return float(entries.get("Water/Largest suction", "")) / 1e3
+        return float(run.entry("Water/Largest suction")) / 1e3
     except ValueError:
         return None
 
 
 def margins_of(run: Results, way: Way) -> dict[str, Any]:
-    """Return the least margins to piping, boiling and the largest suction of the pump,
-    as shares of 1, and the least room below the lid (m)."""
+    """Return the least margins of the suction (shares of 1), and the least room (m)."""
     required = np.maximum(way.columns[SUCTION], 0)
 
     def margin(ratio: np.ndarray) -> dict[str, float]:
@@ -190,10 +175,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
         return {name: most, DEPTH: depth}
 
     total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
-    found: dict[str, Any] = {
-        DEPTH: deepest,
-        "largest_force": largest(total),
-    }
+    found: dict[str, Any] = {DEPTH: deepest, "largest_force": largest(total)}
     if SUCTION in way.columns:
         if (rest := rest_of_run(run.history)) is not None:
             found["rest_penetration_m"] = rest
@@ -204,8 +186,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=16)
 def results_of(run: Results) -> dict[str, Any]:
-    """Return the results of a run, by names that the manual lists
-    (doc/how_to/results.md); empty of a run without forces."""
+    """Return the results by name (doc/how_to/results.md); empty without forces."""
     history = run.history
     if TOTAL not in history:
         return {}
@@ -253,8 +234,7 @@ def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:
 
 
 def is_capacity(way: Pull, depth: np.ndarray) -> bool:
-    """Return whether friction is mobilized, and the pull does not increase: the body
-    has risen further by a fifth, or bore nearly as much before."""
+    """Return whether friction is mobilized, and the pull does not increase."""
     rises = depth[way.begin] - depth[way.begin + 1 :][: len(way.medians)]
     rise, end = rises[way.most - way.begin - 1], rises[-1]
     if end < FRICTION_RISE:
@@ -270,8 +250,7 @@ def is_capacity(way: Pull, depth: np.ndarray) -> bool:
 
 
 def mechanism_of(history: Table, most: int, growth: dict[str, float]) -> str:
-    """Return how a caisson with a sealed lid fails, by what has filled the space
-    beneath it up to a row. growth: of columns on the way up, in m3."""
+    """Return how a caisson with a sealed lid fails. growth: of columns in m3."""
     if history["lid_cavity_m3"][most] > 0:
         return "cavitation beneath the lid"
     pull = -history.get(curves.WITH_WATER, history[TOTAL])[most]

@@ -33,8 +33,7 @@ PROGRAM = find_program()
 
 
 def version() -> str:
-    """Return the version of the project: pyproject.toml has it, also that of an
-    installation."""
+    """Return the version of the project, also of an installation."""
     file = ROOT / "pyproject.toml"
     if file.is_file():
         project = tomllib.loads(file.read_text(encoding="utf-8"))["project"]
@@ -43,8 +42,7 @@ def version() -> str:
 
 
 def short(path: Path) -> str:
-    """Return the path as seen from the project's folder, or from that of the results
-    of an installation, if it lies there."""
+    """Return the path as seen from the project's folder or the results."""
     path = path.resolve()
     for folder in (ROOT, WORK):
         if path.is_relative_to(folder):

@@ -50,9 +50,8 @@ class Progress:
         stream: TextIO | None = None,
         share_of: Callable[[int], float] = lambda _: 0.0,
     ):
-        """durations: of the runs (s); those of 0 are not known and count as the mean of
-        the others. stream: of the bar, default: the errors of this process. share_of:
-        what part of a run is done, as far as that run says it, else 0."""
+        """durations: of the runs (s), 0 for the mean of the others; stream: of the bar;
+        share_of: what part of a run is done, as far as it says so."""
         known = [x for x in durations if x > 0] or [1.0]
         mean = sum(known) / len(known)
         self.expected = [x if x > 0 else mean for x in durations]
@@ -99,8 +98,7 @@ class Progress:
 
     @property
     def scale(self) -> float:
-        """The time that runs take over the time that was expected of them; 1 before one
-        has ended."""
+        """Time taken over time expected of the runs that ended, else 1."""
         expected = sum(self.expected[i] for i in self.took)
         return sum(self.took.values()) / expected if expected else 1.0
 
@@ -139,8 +137,7 @@ class Progress:
             self.stream.flush()
 
     def _draw(self) -> None:
-        """Write the bar over the last one, or a line where there is something to say
-        that is new."""
+        """Draw the bar, or say in a line what is new."""
         if not self.has_bar:
             share, text = self.words()
             now = time.monotonic()

@@ -93,8 +93,7 @@ def choose(points: int) -> tuple[int, str]:
 
 @dataclass(frozen=True)
 class Size:
-    """What a run is going to take: its points, and the most and the least seconds on
-    one core, all 0 where they are not known."""
+    """The points of a run, and most and least seconds on one core; 0 if unknown."""
 
     points: int = 0
     seconds: float = 0.0
@@ -130,11 +129,8 @@ def time_of(seconds: Sequence[float], at_a_time: int) -> float:
 
 
 def plan(sizes: Sequence[Size], most: int) -> Plan:
-    """Return the fastest plan for runs, the longest first, on so many cores.
-
-    Runs side by side waste nothing, so that several ranks pay only for the last runs,
-    which are fewer than the cores.
-    """
+    """Return the fastest plan for runs, the longest first, on so many cores. Several
+    ranks pay only for the last runs, which are fewer than the cores."""
     n, seconds = len(sizes), [size.seconds for size in sizes]
     best = Plan(n, n, most, 1, time_of(seconds, most))
     most_last = min(n, most) if can_start_ranks() else 0

@@ -12,9 +12,8 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from caisson import run_shape
+from caisson import disk, run_shape
 from caisson.lock import is_locked
-from caisson import disk
 from caisson.disk import InputError
 from caisson.shown import Units, units_of
 
@@ -87,8 +86,7 @@ class Results:
 
     @functools.cached_property
     def history(self) -> Table:
-        """Forces, energies and counts; a row is the mean since the row before. Columns
-        of what a scene lacks are absent."""
+        """Forces, energies and counts, as far as the scene has them: means of rows."""
         found = self.table("history.csv", "time_s")
         for name in ("time_s", "penetration_m"):
             if not np.isfinite(found.get(name, 0.0)).all():
@@ -123,8 +121,7 @@ class Results:
 
     @functools.cached_property
     def error_bounds(self) -> Table:
-        """Lower and upper bounds of forces; empty where there are none, as in a run
-        that ended above the depths of its error bar."""
+        """Lower and upper bounds of forces; empty without an error bar."""
         path = self.directory / "history_error.csv"
         if not path.is_file() or len(disk.read_text(path, ResultsError).split()) < 2:
             return {}
@@ -157,18 +154,24 @@ class Results:
         return found
 
     @property
+    def known(self) -> dict[str, Any]:
+        """run.json; empty where a run has left none yet."""
+        return self.summary if (self.directory / "run.json").is_file() else {}
+
+    def entry(self, path: str) -> str:
+        """Return an entry in effect, set or default; "" where it is not known."""
+        every = {**self.known.get("defaults", {}), **self.known.get("entries", {})}
+        return str(every.get(path, ""))
+
+    @property
     def scene(self) -> dict[str, Any]:
-        """The body and the layers of the soil, from run.json; empty where a run
-        has left none yet."""
-        if not (self.directory / "run.json").is_file():
-            return {}
-        return self.summary.get("scene") or {}
+        """The body and the layers of the soil; empty where they are not known yet."""
+        return self.known.get("scene") or {}
 
     @property
     def feasible_to(self) -> float | None:
-        """The depth where suction ends (m), by the verdict in run.json; None without
-        one, or where suction does not end."""
-        return self.summary.get("feasible_to_m") if self.scene else None
+        """The depth where suction ends (m), None without such a verdict."""
+        return self.known.get("feasible_to_m")
 
     @property
     def shown(self) -> Units:
@@ -178,23 +181,20 @@ class Results:
     @property
     def body(self) -> str:
         """The kind of the body; a caisson where a run has left no run.json yet."""
-        if not (self.directory / "run.json").is_file():
-            return "caisson"
-        return str(self.summary.get("entries", {}).get("Rigid body/Kind", "caisson"))
+        return self.entry("Rigid body/Kind") or "caisson"
 
     @property
     def title(self) -> str:
         """The scene's title or file, and where the results are."""
-        if not (self.directory / "run.json").is_file():
+        if not self.known:
             return str(self.directory)
-        names = [str(self.summary.get(key) or "") for key in ("title", "scene_file")]
+        names = [str(self.known.get(key) or "") for key in ("title", "scene_file")]
         names.append(f"results in {self.directory}")
         return disk.one_line(", ".join(filter(None, names)))
 
     @property
     def is_running(self) -> bool:
-        """Whether the run has not ended yet, or was killed: run.json is missing, or
-        is that of a run in progress."""
+        """Whether the run has not ended yet, or was killed."""
         if not (self.directory / "run.json").is_file() or is_locked(self.directory):
             return True
         return self.summary.get("status") == "running"
@@ -215,8 +215,7 @@ class Results:
         return {check["check"]: check for check in self.check_list}
 
     def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
-        """Return [(time, [files])] of points.pvd or grid.pvd, in order; files
-        that are gone, as of a run that was stopped, are left out."""
+        """Return [(time, [files])] of a series in order, of files that are there."""
         path = self.directory / f"{series}.pvd"
         if not path.is_file():
             return []

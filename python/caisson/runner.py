@@ -69,8 +69,7 @@ def mpi_command(ranks: int, binding: str = "none") -> list[str]:
 
 
 def environment() -> dict[str, str]:
-    """Return the environment of a run: one thread for each rank, MPI also as
-    root (as in a container). Variables that are set already keep their value."""
+    """Return the environment of a run, of which variables that are set stay."""
     defaults = {
         "OMP_NUM_THREADS": "1",
         "DEAL_II_NUM_THREADS": "1",
@@ -91,8 +90,7 @@ def environment() -> dict[str, str]:
 
 
 def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
-    """Return what the program says without a run, as with --validate. Raises RunError
-    with that where it refuses the input."""
+    """Return what the program says without a run. Raises RunError if it refuses."""
     done = subprocess.run(
         [str(program), *arguments],
         text=True,
@@ -204,14 +202,12 @@ class Run:
         return [str(self.scene), *options, *set_options(self.entries)]
 
     def validate(self) -> Size:
-        """Let the program check the input without running it; return the size of the
-        run. Raises RunError with what it says where it refuses the input."""
+        """Return the size of a run that the program accepts. Raises RunError."""
         return size_in(query([*self.arguments(), "--validate"], self.program))
 
     @functools.cached_property
     def key(self) -> str:
-        """A hash of what the result depends on. Raises RunError where the program
-        refuses the input."""
+        """A hash of what the result depends on. Raises RunError."""
         entries = read_parameters(self.arguments(), self.program)
         entries.pop("Output/Directory")
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
@@ -222,8 +218,7 @@ class Run:
         return {entry: in_words(value) for entry, value in self.entries.items()}
 
     def completion_record(self) -> dict[str, Any] | None:
-        """Return what a finished run has left: key, entries, status, wall_s and
-        cpu_s. None where there is none, or a broken one."""
+        """Return what a finished run has left in RECORD, or None."""
         try:
             found = json.loads((self.directory / self.RECORD).read_text("utf-8"))
         except (OSError, ValueError, RecursionError):
@@ -232,8 +227,7 @@ class Run:
         return found if isinstance(found, dict) and keys <= set(found) else None
 
     def share_done(self, elapsed: float) -> float:
-        """Return what part of the time of a run is over after so many seconds, by the
-        time that it expects to need still; 0 where it says none."""
+        """Return what part of a run is over after so many seconds; 0 if unknown."""
         try:
             with open(self.directory / "log", "rb") as log:
                 log.seek(-min(log.seek(0, os.SEEK_END), 1000), os.SEEK_END)
@@ -293,8 +287,7 @@ class Run:
             raise RunError(f"{said}\n(exit status {status}, results: {self.directory})")
 
     def stop(self, process: "subprocess.Popen[str]") -> None:
-        """Stop a call with a checkpoint, and wait for its end: by the stop file, as
-        mpirun ends ranks that get a signal before they have written theirs."""
+        """Stop a call with a checkpoint by the stop file, and wait for its end."""
         name = self.parameter("Run control/Stop file", self.program)
         if name and self.directory.is_dir():
             (self.directory / name).touch()

@@ -24,9 +24,8 @@ def title_of(scene: Path) -> str:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson scenes`."""
-    parser.add_argument(
-        "--copy", type=Path, metavar="DIR", help="copy scenes and studies into DIR"
-    )
+    text = "copy scenes and studies into DIR"
+    parser.add_argument("--copy", type=Path, metavar="DIR", help=text)
 
 
 def main(options: argparse.Namespace) -> int:

@@ -78,8 +78,7 @@ def units_for(force: float, stress: float, length: float) -> Units:
 
 
 def units_of(history: Mapping[str, Any], scene: Mapping[str, Any]) -> Units:
-    """Return the units of a run, from the columns of its history and what run.json says
-    of the body."""
+    """Return the units of a run, from its history and scene."""
 
     def largest(name: str) -> float:
         values = np.abs(history.get(name, np.full(1, np.inf)))

@@ -137,8 +137,7 @@ class StudyRun:
 
     @property
     def status(self) -> Status | None:
-        """The exit status of the finished run; without one None, and trouble says
-        why."""
+        """The exit status of the finished run, or None."""
         record = self.run.completion_record()
         if record is None:
             self.trouble = self.trouble or f"no result in {self.run.directory}"
@@ -328,8 +327,7 @@ def read_toml(file: Path) -> dict[str, Any]:
 
 
 def file_name(text: str) -> str:
-    """Return a text as the name of a file or directory. Raises StudyError where it
-    would be another directory, as .. is."""
+    """Return a text as a file name. Raises StudyError where none can be."""
     name = re.sub(r"[^\w.-]+", "_", text)
     if text and not name.strip("."):
         raise StudyError(f"{text!r} is no name for a directory: use letters or digits")
@@ -337,8 +335,7 @@ def file_name(text: str) -> str:
 
 
 def check_is_own(directory: Path, study: Study, names: Iterable[str]) -> None:
-    """Raise StudyError where a directory has files of these names, which the study is
-    going to write, and none of its runs: they are of something else."""
+    """Raise StudyError where a directory has such files and no run of the study."""
     found = [path for path in map(directory.joinpath, names) if path.exists()]
     is_own = any((run.run.directory / Run.RECORD).is_file() for run in study.runs)
     if found and not is_own:
@@ -354,13 +351,10 @@ def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
 
 
 def execute(
-    shares: Sequence[Share],
-    again: bool = False,
-    time_limit: float | None = None,
+    shares: Sequence[Share], again: bool = False, time_limit: float | None = None
 ) -> None:
-    """Run all that are not complete, share by share, in each of them the longest first.
-    A run that cannot be made says why in its trouble. A bar, or in a log file a line
-    now and then, shows how far all of them are."""
+    """Run all that are not complete, share by share, the longest first, behind a bar. A
+    run that cannot be made says why in its trouble."""
     sorted_shares = [(longest_first(runs), n, ranks) for runs, n, ranks in shares]
     ordered = [run for runs, _, _ in sorted_shares for run in runs]
 

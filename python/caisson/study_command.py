@@ -74,13 +74,8 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     else:
         parser.set_defaults(file=file)
     add = parser.add_argument
-    add(
-        "--only",
-        type=pattern,
-        default="",
-        metavar="REGEX",
-        help="studies whose id or title fits",
-    )
+    text = "studies whose id or title fits"
+    add("--only", type=pattern, default="", metavar="REGEX", help=text)
     add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
@@ -123,8 +118,7 @@ def query_size(run: StudyRun) -> None:
 
 
 def cost_of(study: Study) -> str:
-    """Return how long the runs of a study take on one core, as a range. Where the file
-    does not say it, the program is asked for the first, the middle and the last."""
+    """Return how long the runs take on one core, by the file or the program."""
     silent = [run for run in study.runs if not run.seconds]
     asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
     for run in asked:
@@ -137,13 +131,6 @@ def cost_of(study: Study) -> str:
     most = said + len(silent) * max(found, default=0)
     text = f"about {span(least, most)} on one core"
     return text + (", by the speed of the first steps" if asked else "")
-
-
-def print_list(studies: list[Study]) -> None:
-    """Print what there is."""
-    for study in studies:
-        n = len(study.runs)
-        print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
 
 
 def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
@@ -159,7 +146,10 @@ def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int
     if not studies:
         raise StudyError(f"{arguments.file}: no study fits")
     if arguments.list:
-        print_list(studies)
+        for study in studies:
+            n = len(study.runs)
+            text = f"{study.id}: {study.title}, {n} runs, {cost_of(study)}"
+            print(text, flush=True)
         return 0
     options.results.mkdir(parents=True, exist_ok=True)
     return int(run_and_evaluate(module, studies, options, arguments))
@@ -197,8 +187,7 @@ def run_and_evaluate(
 
 
 def to_do_of(runs: Sequence[StudyRun], again: bool) -> list[StudyRun]:
-    """Return the runs that are not complete, the longest first. Of a few long ones,
-    which several ranks may make faster, the sizes are asked for."""
+    """Return the runs that are not complete, the longest first."""
 
     def is_to_do(run: StudyRun) -> bool:
         return again or not run.run.is_complete()

@@ -16,8 +16,7 @@ def number(value: float | None, digits: int = 5) -> str:
 
 
 def cell(value: object) -> str:
-    """Return what a cell shows: text, or a number with three digits and all that
-    are before the point."""
+    """Return what a cell shows: text, or a number with three digits."""
     if not isinstance(value, float):
         return str(value).replace("|", "\\|")
     if abs(value) >= 100:
@@ -36,6 +35,11 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
 
     rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     return "\n".join([text(lines[0]), rule, *map(text, lines[1:])])
+
+
+def by_rows(columns: Mapping[str, Iterable[str]]) -> dict[str, Any]:
+    """Return columns of text as heads and rows, as pages take them."""
+    return {"heads": list(columns), "rows": list(map(list, zip(*columns.values())))}
 
 
 def write_csv(

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Templates of Jinja for files and pages, each in the folder that uses it."""
+import base64
 from collections.abc import Callable
 from pathlib import Path
 
@@ -25,6 +26,11 @@ def template(path: Path, **filters: Callable[..., str]) -> jinja2.Template:
     environment.filters["number"] = lambda value, digits=6: f"{float(value):.{digits}g}"
     environment.filters.update(filters)
     return environment.get_template(path.name)
+
+
+def picture_of(path: Path) -> str:
+    """Return a picture as data for a page."""
+    return base64.b64encode(path.read_bytes()).decode("ascii")
 
 
 def in_one_line(value: object) -> object:

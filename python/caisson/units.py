@@ -4,28 +4,15 @@ tables and of the arrays of frames."""
 
 # the end of a name, and the unit; a longer end comes before one that ends like it
 UNITS = {
-    "m3_s": "m3/s",
-    "m_s": "m/s",
-    "kg_m3": "kg/m3",
-    "J_m3": "J/m3",
-    "N_m3": "N/m3",
-    "m3": "m3",
-    "m2": "m2",
-    "kPa": "kPa",
-    "Pa": "Pa",
-    "kg": "kg",
-    "deg": "degree",
-    "J": "J",
-    "N": "N",
-    "m": "m",
-    "s": "s",
+    **{"m3_s": "m3/s", "m_s": "m/s", "kg_m3": "kg/m3", "J_m3": "J/m3"},
+    **{"N_m3": "N/m3", "deg": "degree"},
+    **{unit: unit for unit in "m3 m2 kPa Pa kg J N m s".split()},
 }
 NONE = "1"  # of counts, ratios and numbers of materials
 
 
 def split(name: str) -> tuple[str, str]:
-    """Return the quantity and its unit: ("stress_zz", "Pa") from "stress_zz_Pa"; the
-    name and NONE where it has no unit."""
+    """Return quantity and unit of "stress_zz_Pa"; NONE where it has no unit."""
     for end, unit in UNITS.items():
         if name.endswith(f"_{end}"):
             return name.removesuffix(f"_{end}"), unit

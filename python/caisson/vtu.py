@@ -25,8 +25,7 @@ MOST_PER_BYTE = 2000  # what a compressed byte can stand for
 
 
 def check(file: Path) -> None:
-    """Raise ResultsError unless a .vtu file is whole and its counts are possible: VTK
-    would try to allocate them."""
+    """Raise ResultsError unless a .vtu file is whole and of possible size."""
     data = disk.read_bytes(file, ResultsError)
     try:
         tags = list(ElementTree.fromstring(data).iter())
@@ -108,13 +107,12 @@ def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
     grid = joined([read_grid(file) for file in files])
     if grid.GetNumberOfPoints() == 0:
         raise OSError(f"no material points can be read from {files[0]}")
-    found = {**arrays_of(grid.GetPointData()), "position": positions_of(grid)}
-    return Read(files[0], found)
+    more = {"position": positions_of(grid)}
+    return Read(files[0], arrays_of(grid.GetPointData()) | more)
 
 
 def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:
-    """Return the fields of the cells of the background grid, [n] or [n, components];
-    "corners" [n, 4, 2] as of corners_of is among them."""
+    """Return the fields of the cells of the background grid, [n] or [n, components],
+    and their "corners" [n, 4, 2] as of corners_of()."""
     grid = joined([read_grid(file) for file in files])
-    found = {**arrays_of(grid.GetCellData()), "corners": corners_of(grid)}
-    return Read(files[0], found)
+    return Read(files[0], arrays_of(grid.GetCellData()) | {"corners": corners_of(grid)})

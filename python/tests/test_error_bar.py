@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from synthetic import write_run
 
-from caisson import curves
+from caisson import curves, error_bounds
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
@@ -47,8 +47,8 @@ def synthetic(force: float, suction: float | None) -> Table:
     larger by this amount (Pa) and zero at 2 m; None: drained."""
     depth = np.linspace(0.5, 3.5, 301)
     table = {"time_s": depth, "penetration_m": depth}
-    for quantity in error_bar.FORCES:
-        table[quantity.column] = (1 + force) * 1e5 * depth
+    for quantity in error_bounds.FORCES:
+        table[quantity.column()] = (1 + force) * 1e5 * depth
     if suction is not None:
         table["required_suction_Pa"] = SUCTION * (depth - 2) + suction
         table["exit_gradient_axis"] = 0.1 * depth
@@ -385,7 +385,7 @@ class Windows(unittest.TestCase):
                 depth = np.linspace(0.64, 1.0, 37) + i
                 rising = np.where(depth > depth[-1] - 0.1201, force, 0)
                 history = {"time_s": depth, "penetration_m": depth, "F": rising}
-                history |= {q.column: rising for q in error_bar.SUCTION}
+                history |= {q.column(): rising for q in error_bounds.SUCTION}
                 place = Path(folder, str(i))
                 write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
                 results.append(Results(place))

@@ -416,7 +416,7 @@ class Evaluation(WithFiles):
         self.assertAlmostEqual(float(row["total_force_N [30]"]), 4e5)
         # 0.3 8 MPa pi 5.8 0.2 m2 + 0.001 16 MN/m pi (5.6 + 6) m, whatever the angle
         for angle in (30, 36):
-            force = float(row[f"dnv_most_probable_total_force_N [{angle}]"])
+            force = float(row[f"dnv_most_probable_total_N [{angle}]"])
             self.assertAlmostEqual(force / 9.329274e6, 1, places=5)
         byrne = "houlsby_byrne_low_total_force_N"
         self.assertLess(float(row[f"{byrne} [30]"]), float(row[f"{byrne} [36]"]))

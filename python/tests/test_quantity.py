@@ -289,9 +289,9 @@ class Layers(unittest.TestCase):
         clay = self.layer("0: Law = NGI-ADP, suA = 20 kPa")
         cam = self.layer("0: Law = modified Cam clay, phi_c = 24, e = 1")
         sand = self.layer("0: Law = NorSand, E = 50 MPa, e = 0.7, phi_c = 33")
-        self.assertEqual(suggest.wall_friction_of(None, [cam]).value, "16")
-        self.assertEqual(suggest.wall_friction_of(None, [sand]).value, "22")
-        self.assertEqual(suggest.wall_friction_of(None, [clay]).value, "0")
+        self.assertEqual(walls.wall_friction_of(None, [cam]).value, "16")
+        self.assertEqual(walls.wall_friction_of(None, [sand]).value, "22")
+        self.assertEqual(walls.wall_friction_of(None, [clay]).value, "0")
         found = suggest.with_permeability([clay, cam, sand])
         conduct = [layer.value("Permeability") for layer in found]
         self.assertEqual(conduct, ["1e-9", "1e-9", "1e-4"])
@@ -308,13 +308,13 @@ class Layers(unittest.TestCase):
         grows = self.layer("0: phi = 30 + d, E = 20 MPa")
         dense = self.layer("0: dense sand")
         mixed = [clay, other, sand, grows, dense]
-        self.assertEqual(suggest.wall_friction_of(None, mixed).value, "0")
+        self.assertEqual(walls.wall_friction_of(None, mixed).value, "0")
         for given, angles, factors in (
             (None, ["0", "0", "24", "2/3*(30 + d)", "29"], ["0.5", "0.3", "", "", ""]),
             (25.0, ["0", "0", "", "", ""], ["0.5", "0.3", "", "", ""]),
             (0.0, ["", "", "", "", ""], ["", "0.3", "", "", ""]),
         ):
-            found = suggest.with_walls(mixed, given, mixed)
+            found = walls.with_walls(mixed, given, mixed)
             self.assertEqual([x.value(walls.FRICTION) for x in found], angles)
             self.assertEqual([x.value(walls.ADHESION) for x in found], factors)
         # of clay alone the body has the angle 0, and of sand alone one for all
@@ -323,11 +323,11 @@ class Layers(unittest.TestCase):
             ([sand, dense], ["", ""], "24"),
             ([grows], ["2/3*(30 + d)"], "0"),
         ):
-            found = suggest.with_walls(layers, None, layers)
+            found = walls.with_walls(layers, None, layers)
             self.assertEqual([x.value(walls.FRICTION) for x in found], angles)
-            self.assertEqual(suggest.wall_friction_of(None, layers).value, angle)
+            self.assertEqual(walls.wall_friction_of(None, layers).value, angle)
         with self.assertRaisesRegex(SuggestError, "clay, which adheres: give alpha"):
-            suggest.wall_friction_of(25, [clay])
+            walls.wall_friction_of(25, [clay])
 
     def test_quick_clay_under_suction(self) -> None:
         """A small angle does not make sand of clay, and the message has the way out."""

@@ -5,6 +5,7 @@ import contextlib
 import fcntl
 import html
 import io
+import json
 import re
 import subprocess
 import tempfile
@@ -13,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from synthetic import write_run
+from synthetic import write_columns, write_run
 
 import caisson.report as report
 from caisson.results import Results, ResultsError
@@ -509,6 +510,24 @@ class Report(WithPage):
         self.assertFalse([name for name in labels[1] if "DNV" in name])
         self.assertFalse([name for name in labels[0] if "by cone" in name])
         self.assertEqual(len(labels[0]), 10)
+
+    def test_run_of_an_earlier_version(self) -> None:
+        """Without section Design, whose factors limit the suction, it is refused in a
+        line; one that is jacked needs none."""
+        leave_run(self.path, SUMMARY)
+        (self.path / "run.json").write_text(json.dumps(SUMMARY), encoding="utf-8")
+        parser, errors = argparse.ArgumentParser(), io.StringIO()
+        report.add_arguments(parser)
+        options = parser.parse_args([str(self.path)])
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(report.main(options), 1)
+        words = r"^report: \S+/run.json has no entry Design/.*; run the scene again\n$"
+        self.assertRegex(errors.getvalue(), words)
+        history = dict(Results(self.path).history)
+        del history["required_suction_Pa"], history["suction_Pa"]
+        write_columns(self.path / "history.csv", history)
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(report.main(options), 0)
 
     def test_no_run(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no history.csv"):

@@ -12,7 +12,7 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.paths import SCENES
-from caisson.suggest import cone, sand
+from caisson.suggest import cone, sand, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
@@ -143,9 +143,9 @@ class Entries(unittest.TestCase):
         layers = layers_in(*words, "--layer", other)
         laws = [layer.value("Law") for layer in layers]
         self.assertEqual(laws, [density_law.LAW] * 2 + ["Mohr-Coulomb"])
-        self.assertEqual(suggest.wall_friction_of(None, layers[:2]).value, "29")
-        self.assertEqual(suggest.wall_friction_of(None, layers).value, "20")
-        self.assertEqual(suggest.wall_friction_of(25, layers).value, "25")
+        self.assertEqual(walls.wall_friction_of(None, layers[:2]).value, "29")
+        self.assertEqual(walls.wall_friction_of(None, layers).value, "20")
+        self.assertEqual(walls.wall_friction_of(25, layers).value, "25")
         # a density that goes with a friction angle is only that of the start
         text = f"0: Relative density = 0.7, {other[3:]}"
         self.assertEqual(layers_in("--layer", text)[0].value("Law"), "Mohr-Coulomb")

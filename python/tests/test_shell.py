@@ -14,7 +14,8 @@ from caisson.design import shell
 from caisson.design.shell import Wall
 from caisson.results import Results
 
-BUCKET = Wall(9.5, 0.03, 9.0)
+STEEL = (355e6, 210e9, 0.5)
+BUCKET = Wall(9.5, 0.03, 9.0, *STEEL)
 
 
 class ByHand(unittest.TestCase):
@@ -43,14 +44,14 @@ class ByHand(unittest.TestCase):
         sigma_h = 55.5, sigma_a = 5.377, sigma_j = 53.02 MPa; lambda^2 = 6.696
         (0.003491 + 0.1140) = 0.7869, lambda = 0.8871, gamma_M = 0.85 + 0.6 * 0.8871 =
         1.382, f_d = 355 / sqrt(1 + 0.6193) / 1.382 = 201.8 MPa; 0.2627."""
-        self.check(shell.unity_check(Wall(3, 0.04, 2), 2.0, 1.5e6, 2e6), 0.2627)
+        self.check(shell.unity_check(Wall(3, 0.04, 2, *STEEL), 2.0, 1.5e6, 2e6), 0.2627)
 
     def test_long(self) -> None:
         """D = 1 m, t = 2 mm, l = 40 m, 200 Pa, 1 kN: l / r = 80.2 > 2.25 sqrt(249.5) =
         35.5, so f_Eh = 0.25 E / 249.5^2 = 0.8434 MPa. sigma_h = 49.9 kPa, sigma_a =
         159.5 kPa, sigma_j = 141.3 kPa, f_Ea = 156.1 MPa; lambda^2 = 2512 (0.001022 +
         0.05917) = 151.2, f_d = 355 / 151.2 / 1.45 = 1.619 MPa; 0.0873."""
-        wall = Wall(1, 0.002, 40)
+        wall = Wall(1, 0.002, 40, *STEEL)
         self.check(shell.elastic_strengths(wall, 40.0)[1], 0.8434e6)
         self.check(shell.unity_check(wall, 40.0, 200.0, 1e3), 0.0873)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Installation by suction in sand, against formulas worked out by hand."""
 import unittest
+from collections.abc import Callable
 from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, isnan, pi, radians, tan
@@ -9,7 +10,8 @@ import numpy as np
 
 from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
 from caisson.design.method import Forces
-from caisson.design.seepage import CRITICAL_SUCTIONS, houlsby_byrne, pressure_factor
+from caisson.design import seepage as fits
+from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.suction_installation import (
     critical_suction,
     piping_suction,
@@ -22,6 +24,12 @@ DO, T, GAMMA, K = 6.0, 0.05, 9e3, 0.8
 DI, K_TAN = DO - 2 * T, K * tan(radians(25))
 RIM = pi * (DO - T) * T  # area of the end of the wall
 AREA = pi * DI**2 / 4
+CRITICAL_SUCTIONS: dict[str, Callable[[float, float, float], float]] = {
+    "Houlsby & Byrne (2005)": fits.houlsby_byrne,
+    "Senders & Randolph (2009)": fits.senders_randolph,
+    "Ibsen & Thilsted (2011)": fits.ibsen_thilsted,
+    "Feld (2001)": fits.feld,
+}
 N_Q, N_GAMMA = 18.4011, 14.754  # of 30 degrees
 SAND = Layer(0, GAMMA, 30, K)
 WEIGHT = 600e3

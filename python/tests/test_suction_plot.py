@@ -11,6 +11,7 @@ from unittest import mock
 import numpy as np
 from matplotlib.figure import Figure
 from synthetic import write_columns, write_run
+from test_suction_design import CRITICAL_SUCTIONS
 
 from caisson import evaluation, plot
 from caisson.plot import design, limits, suction, theory
@@ -53,10 +54,7 @@ REST = 2.0  # m, of the made-up run
 # no suction draws it in: it has no weight, and its outer wall much friction
 LIGHT: dict[str, Any] = {
     "submerged_weight_N": 0,
-    "design_methods": {
-        "k_tan_delta_inside": [2, 2],
-        "k_tan_delta_outside": [2, 2],
-    },
+    "design_methods": {"k_tan_delta_inside": [2, 2], "k_tan_delta_outside": [2, 2]},
     "outer_wall_friction_angle_deg": 45,
     "layers": [{**SAND, "K0": 2}],
 }
@@ -154,7 +152,7 @@ class MadeUpRun(unittest.TestCase):
         depths = [float(row["penetration_m"]) for row in rows]
         np.testing.assert_allclose(depths, np.arange(5, 46) / 10)
         h, row = 3.0, rows[25]
-        fits = seepage.CRITICAL_SUCTIONS
+        fits = CRITICAL_SUCTIONS
         byrne = {
             f"houlsby_byrne_{case}_Pa": installation.required_suction(
                 caisson, WEIGHT, h, enhanced
@@ -332,7 +330,7 @@ class MadeUpRun(unittest.TestCase):
         """Equilibrium with inner friction and tip in proportion to 1 - s / s_cr."""
         site = SITE._replace(cone=Profile([0, 10], [0, 10e6]))
         answers, h = methods.answers_of(site, np.array([4.0])), 4.0
-        critical = seepage.CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, D)
+        critical = CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, D)
         tip = 0.2 * 4e6 * np.pi * 5.9 * 0.1
         wall = (1 - (5.8 / 6) ** 2) ** 0.3 * np.tan(np.radians(20)) * 8e6 * np.pi
         for column, c in ((methods.CONE_LOW, 0.012), (methods.CONE_HIGH, 0.0212132)):

@@ -6,7 +6,7 @@ import re
 import unittest
 from typing import Any
 
-from synthetic import write_columns
+from synthetic import DESIGN, write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
@@ -173,6 +173,7 @@ class Verdicts(WithPage):
         known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
         self.assertEqual(known.pop("verdict"), text)
         rows = known.pop("limits")
+        self.assertEqual(known.pop("defaults"), DESIGN)
         self.assertEqual(known, SUMMARY)
         last = rows[-1]
         self.assertEqual((last["penetration_m"], last["factor"]), (4.5, 1.0))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// python/caisson/plot/limits.py has the same names and defaults.
+// python/caisson/plot/limits.py has the names.
 #include <caisson_mpm/water/design_settings.h>
 
 #include <deal.II/base/patterns.h>

@@ -95,14 +95,11 @@ class Schema(ProgramTest):
         self.assertRegex(said, r"\| suction +[\d.]+ kPa, gradient +\d+ % of critical")
         most = results["largest_suction"]["required_suction_Pa"]
         self.assertGreaterEqual(most, max(table["required_suction_Pa"]))
-        # section Design reaches Python, which has the same defaults
-        defaults = {f"Factor on {x.entry}": x.factor for x in limits.LIMITS.values()}
+        # section Design reaches Python, which knows its names
+        names = {f"Factor on {x.entry}" for x in limits.LIMITS.values()}
         given = {k for k in found["defaults"] if k.startswith("Design/")}
-        names = {f"Design/{name}" for name in (defaults | limits.STEEL)}
+        names = {f"Design/{name}" for name in (*names, *limits.STEEL)}
         self.assertEqual(given | {"Design/Factor on pump"}, names)
-        for name, value in (defaults | limits.STEEL).items():
-            if name != "Factor on pump":
-                self.assertEqual(float(found["defaults"][f"Design/{name}"]), value)
         pump = limits.limits_of(run, np.array([1.2]))[limits.PUMP]
         self.assertAlmostEqual(pump[0], 160)
         margins = results["margins"]

@@ -487,6 +487,7 @@ class ConeTests(SuggestTest):
             self.assertTrue((run / "cone.csv").is_file())
         head = (out / "study/methods.csv").read_text("utf-8").splitlines()[0]
         self.assertIn("total_force_N [best]", head)
+        self.assertIn("_total_N [best]", head)
         for method in ("houlsby_byrne", "dnv", "senders_randolph", "andersen"):
             self.assertIn(f"{method}_", head)
 

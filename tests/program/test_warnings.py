@@ -6,14 +6,7 @@ import pathlib
 import subprocess
 import unittest
 
-from program import (
-    BAD_INPUT,
-    SUCCESS,
-    Entries,
-    ProgramTest,
-    environment,
-    user_scene,
-)
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, environment, user_scene
 
 BODY = "Rigid body"
 LAYER = "Soil/Layer 1"
@@ -55,11 +48,7 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {**CLAY, f"{LAYER}/Cohesion": "2 + 1.5*d"},
         {**CLAY, f"{LAYER}/Cohesion": "1500*d"},
     ),
-    (
-        ["Active strength = 60 Pa"],
-        {**NGI_ADP, f"{LAYER}/Active strength": 60},
-        {},
-    ),
+    (["Active strength = 60 Pa"], {**NGI_ADP, f"{LAYER}/Active strength": 60}, {}),
     (
         ["strength of undrained clay, 6e+04 Pa with a friction angle of 1 degrees"],
         {**SEEPS, f"{LAYER}/Friction angle": 1, f"{LAYER}/Cohesion": 60e3},
@@ -145,11 +134,7 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
         {f"{BODY}/Friction coefficient of the tip": 0.7},
         {f"{BODY}/Friction coefficient of the tip": 0.5},
     ),
-    (
-        ["Cohesion = 0 Pa", "no strength at all"],
-        {**CLAY, f"{LAYER}/Cohesion": 0},
-        CLAY,
-    ),
+    (["Cohesion = 0 Pa", "no strength at all"], {**CLAY, f"{LAYER}/Cohesion": 0}, CLAY),
     (
         ["adhesion of 5500 Pa", "the cohesion, 5000 Pa"],
         {**CLAY, f"{LAYER}/Adhesion factor of the walls": 1.1},
@@ -157,10 +142,7 @@ DOUBTS: tuple[tuple[list[str], Entries, Entries], ...] = (
     ),
     (
         ["Overconsolidation ratio only raises K0", "Yield stress ratio is 1. Set it."],
-        {
-            f"{LAYER}/Law": "modified Cam clay",
-            f"{LAYER}/Overconsolidation ratio": 4,
-        },
+        {f"{LAYER}/Law": "modified Cam clay", f"{LAYER}/Overconsolidation ratio": 4},
         {},
     ),
     (
@@ -326,6 +308,13 @@ class Review(ProgramTest):
             with self.subTest(entries=entries):
                 said = self.validate(pile, entries)
                 self.assert_words(["warning: ", *words], said)
+
+    def test_factors_without_suction(self) -> None:
+        """Section Design is for a caisson that suction draws in."""
+        words = '"Design/Factor on boiling" is set but not used: Water/Level is drained'
+        entries: Entries = {"Design/Factor on boiling": 2}
+        self.assertIn(words, self.validate("jack_coarse", entries))
+        self.assertNotIn("not used", self.validate("suction", entries))
 
     def test_density_not_given(self) -> None:
         """A law by density, in a scene that does not say how dense the sand is."""

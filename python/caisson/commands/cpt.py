@@ -13,15 +13,13 @@ with --run report.html.
 import argparse
 from pathlib import Path
 
-from caisson import suggest
+from caisson import disk, suggest
 from caisson.commands import cpt_page
-from caisson.design import cone_texts
+from caisson.design import cone_picture, cone_texts, interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.study import check_is_own, file_name
 from caisson.study_command import whole_number
 from caisson.suggest.cone import REACH
-from caisson import disk
-from caisson.design import cone_picture, interpretation
 from caisson.disk import InputError
 from caisson.terminal import printable
 from caisson.design.correlations import EVERY

@@ -2,16 +2,14 @@
 """Runs the study of a cone test, and writes report.html: the test, layers, and the
 forces of all estimates beside the design methods, on one page."""
 import argparse
-import base64
 import html
 import re
 from pathlib import Path
 
 import numpy as np
 
-from caisson.template import template
-from caisson import report
-from caisson import plot, study_command
+from caisson.template import picture_of, template
+from caisson import disk, plot, report, study_command
 from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
@@ -19,7 +17,6 @@ from caisson.parameters.outcome import Outcomes, words_of
 from caisson.plot import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson import disk
 from caisson.design.interpretation import Interpretation
 from caisson.design.reasons import text_of
 
@@ -74,30 +71,23 @@ def range_of(low: float, high: float) -> str:
 def by_layer(
     heads: list[str], rows: list[list[str]]
 ) -> list[tuple[list[str], list[list[str]]]]:
-    """Return a table of layers as tables with a column for each layer and few of them,
-    which fit on a page."""
+    """Return a table of layers as tables of few layers, a column each, for a page."""
     found = []
     for first in range(0, len(rows), WIDEST):
         columns = [heads, *rows[first : first + WIDEST]]
-        lines = [[capital(head), *rest] for head, *rest in zip(*columns)]
+        # a head is a title, but for symbols
+        lines = [
+            [re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head), *rest]
+            for head, *rest in zip(*columns)
+        ]
         found.append((lines[0], lines[1:]))
     return found
-
-
-def capital(head: str) -> str:
-    """Return a head as a title, but for symbols."""
-    return re.sub("^[a-z]{4,}", lambda word: word[0].capitalize(), head)
 
 
 def with_subscripts(text: str) -> str:
     """Return a text as HTML, with q_c and its like as one writes them."""
     safe = html.escape(text).replace("phi (deg)", "φ (°)")
     return re.sub(r"\b([A-Za-z])_(\w+)", r"\1<sub>\2</sub>", safe)
-
-
-def picture_of(path: Path) -> str:
-    """Return a picture as data for the page."""
-    return base64.b64encode(path.read_bytes()).decode("ascii")
 
 
 def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
@@ -126,8 +116,7 @@ def troubles_of(outcomes: Outcomes) -> list[str]:
 
 
 def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, str]]:
-    """Return what a first page must name: facts, and when the last run was computed and
-    by what."""
+    """Return what a first page must name: facts, program, date of the last run."""
     summaries = [outcome.run.results.summary for outcome in outcomes.complete]
     last = max(summaries, key=lambda summary: str(summary.get("written", "")))
     written = str(last.get("written", ""))[:16].replace("T", " ")
@@ -138,8 +127,7 @@ def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, 
 def write(
     test: Interpretation, file: Path, directory: Path, facts: list[tuple[str, str]]
 ) -> Path:
-    """Write the page of a study with a cone test. facts: what it names first. Raises
-    ResultsError where no run has an answer."""
+    """Write the page of a study with a cone test. Raises ResultsError without a run."""
     study = study_of(file, directory)
     outcomes = Outcomes(study)
     if not outcomes.complete:

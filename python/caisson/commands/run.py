@@ -56,8 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
-    """Return where the program will write, and the file that stops it. None where there
-    is none: of bad input, which it explains itself, or of options that only print."""
+    """Return where the program will write and its stop file, None for none."""
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--output-directory", type=Path)
     chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
@@ -71,8 +70,7 @@ def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
 
 
 def choose_ranks(arguments: list[str]) -> int:
-    """Return the number of ranks that pays for a run, and say why. It is one where
-    there will be no run: the program itself says what is wrong with the input."""
+    """Return the number of ranks that pays, and say why; one where nothing runs."""
     if "--validate" in arguments:
         return 1
     try:
@@ -91,9 +89,8 @@ def choose_ranks(arguments: list[str]) -> int:
 def options_for_error(
     options: argparse.Namespace, directory: Path
 ) -> tuple[list[str], Path]:
-    """Return the options of the program with which the scene has the error that is
-    wanted, and its error bar. The runs for it go beside the output directory. Raises
-    RunError, StudyError and ArgumentTypeError."""
+    """Return the options of the program for the error that is wanted, and its error
+    bar. Raises RunError, StudyError and ArgumentTypeError."""
     from caisson.error import wanted
     from caisson.error.command import seconds_of
 
@@ -111,9 +108,8 @@ def options_for_error(
 
 
 def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
-    """Draw the pictures, write the report and say whether it works; the results do not
-    need them. error_bar: of the run, None for that beside the scene; in_full: say all
-    of it, and not only where the report is."""
+    """Draw the pictures and write the report. error_bar: None for that beside the
+    scene; in_full: say all of it, and not only where the report is."""
     from caisson import error_bounds, plot, report
     from caisson.report import band, verdict
     from caisson.results import Results
@@ -132,8 +128,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
 
 @contextlib.contextmanager
 def reporting(directory: Path | None) -> Iterator[None]:
-    """Renew the report of a run from time to time as long as it runs and has more to
-    show."""
+    """Renew the report of a run from time to time while it has more to show."""
     ended = threading.Event()
 
     def renew() -> None:
@@ -161,8 +156,7 @@ def reporting(directory: Path | None) -> Iterator[None]:
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:
-    """Return the exit status of the program, as a shell would. It ends with a
-    checkpoint when it is asked to stop, so it is waited for."""
+    """Return the exit status of the program as a shell would, once it has ended."""
     while True:
         try:
             status = process.wait()
@@ -172,8 +166,7 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
 
 
 def run_alone(command: list[str]) -> int:
-    """Run the program on one rank; return its exit status. Ctrl-C reaches it without
-    our help; other signals are handed on."""
+    """Run the program on one rank, and hand signals on; return its exit status."""
     process = subprocess.Popen(command, env=environment())
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda caught, _: process.send_signal(caught))
@@ -181,12 +174,9 @@ def run_alone(command: list[str]) -> int:
 
 
 def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
-    """Run the program on several ranks; return its exit status.
-
-    mpirun ends ranks a few seconds after a signal, whether or not they have written
-    their checkpoint. So no signal of the terminal reaches it: the first one makes the
-    file that stops a run in order, and the second one is handed on.
-    """
+    """Run the program on several ranks; return its exit status. mpirun would end ranks
+    before they have written their checkpoint: the first signal makes the file that
+    stops a run in order, and the second one is handed on."""
     process = subprocess.Popen(
         command, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
     )

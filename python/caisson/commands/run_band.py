@@ -32,8 +32,7 @@ def options_of(words: Sequence[str]) -> argparse.Namespace:
 
 
 def scenes_of(best: Path) -> dict[str, Path]:
-    """Return the scenes of a band by estimate, as far as there are such. Raises
-    RunError without any beside the best one."""
+    """Return the scenes of a band by estimate. Raises RunError without any."""
     members = {estimate: member_of(best, estimate) for estimate in ESTIMATES}
     found = {e: path for e, path in members.items() if path.is_file()}
     if BEST not in found:
@@ -48,8 +47,7 @@ def scenes_of(best: Path) -> dict[str, Path]:
 
 
 def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
-    """Return the runs of a band by estimate, checked by the program, with how long they
-    take. Their directories are named after that of the best one. Raises RunError."""
+    """Return the checked runs of a band by estimate. Raises RunError."""
     given = [word for k, v in entries.items() for word in ("--set", f"{k}={v}")]
     directory = Path(read_parameters([str(best), *given])["Output/Directory"])
     found = {}

@@ -16,7 +16,7 @@ row; below the last row there is no answer (nan).
 SI units; z is the depth below the mudline (m), q_c is in Pa.
 """
 from collections.abc import Mapping, Sequence
-from math import inf, nan, pi, radians, tan
+from math import inf, nan, pi
 from pathlib import Path
 from typing import NamedTuple
 
@@ -32,8 +32,7 @@ NAME = "cone.csv"  # of the test in the directory of a run
 
 
 class Profile:
-    """The cone resistance over depth; assumed: of one that was not measured, what it
-    rests on, in a sentence."""
+    """The cone resistance over depth; assumed: what an assumed one rests on."""
 
     assumed = ""
 
@@ -76,16 +75,6 @@ class Skirt(NamedTuple):
     def tip_area(self) -> float:
         """The area of the end of the wall (m2)."""
         return pi * (self.outer_diameter - self.wall_thickness) * self.wall_thickness
-
-    @property
-    def tan_inner(self) -> float:
-        """The friction coefficient of the inner wall."""
-        return tan(radians(self.inner_friction_angle))
-
-    @property
-    def tan_outer(self) -> float:
-        """The friction coefficient of the outer wall."""
-        return tan(radians(self.outer_friction_angle))
 
 
 class Coefficients(NamedTuple):
@@ -140,16 +129,14 @@ class ConeMethod:
 
 
 def read(path: Path) -> Profile:
-    """Return depth and resistance of the test in a file (caisson.design.cone_file).
-    Raises InputError, with the rows that are wrong."""
+    """Return depth and resistance of a test. Raises InputError, with the wrong rows."""
     test = cone_file.read(path, with_friction=False)
     return Profile(test.depth.tolist(), test.resistance.tolist())
 
 
 def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
-    """Keep a test in the directory of a run, where pictures and report find it: as it
-    is, or as a table if it is none with heads. how: what options say of the file.
-    Return in words what was made of it. Raises InputError where it cannot be read."""
+    """Keep a test with a run as it is, or as a table with heads. Return in words what
+    was made of it. Raises InputError where it cannot be read."""
     test = cone_file.read(path, with_friction=False, how=how)
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")

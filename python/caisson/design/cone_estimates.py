@@ -17,6 +17,7 @@ import numpy as np
 from caisson.design import correlations
 from caisson.design.cone_layers import Layer
 from caisson.design.correlations import (
+    RESTS_OF_CLAY,
     ANGLE,
     BEST,
     DENSITY,
@@ -25,13 +26,13 @@ from caisson.design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson.design.ground import CLAY, GRAVITY, SAND, SILT, WATER, Ground
+from caisson.design.ground import CLAY, SAND, SILT, Ground
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
 
 ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84
 RESISTANCE, INDEX, WEIGHT, K0 = "resistance", "index", "unit weight", "K0"
 REFERENCE = "modulus at 100 kPa"
-SOLID_DENSITY = 2650.0  # kg/m3, assumed, of quartz
 # E / s_u of clay, for the low, the best and the high estimate. Duncan & Buchignani
 # (1976) have about 300 for a plasticity of 30 to 50 % and an OCR below 3, and less for
 # more of either; quoted from memory, not checked against the report
@@ -74,15 +75,14 @@ class Estimates:
 
     def porosity(self) -> float:
         """Return the porosity at which water and quartz have the unit weight."""
-        solid, weight = SOLID_DENSITY * GRAVITY, self.values[WEIGHT].best
+        solid, weight = QUARTZ_DENSITY * GRAVITY, self.values[WEIGHT].best
         return (solid - weight) / (solid - WATER)
 
 
 def combined(
     rows: np.ndarray, low: np.ndarray, high: np.ndarray, limits: Limits
 ) -> Estimate:
-    """Return the estimate of values [n] whose ends of scatter are low and high [n],
-    within limits."""
+    """Return the estimate of values [n] with scatter from low to high [n]."""
     best = float(np.median(rows))
     below, above = np.quantile(rows, QUANTILES)
     return Estimate(
@@ -99,8 +99,7 @@ def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
 
 
 def growth_of(ground: Ground, names: dict[str, str]) -> np.ndarray:
-    """Return the stiffness of sand at rest [n] over that at a mean effective stress of
-    100 kPa, if it grows with the square root of the stress."""
+    """Return the stiffness of sand at rest [n] over that at 100 kPa."""
     k0 = correlations.at_rest(correlations.angles_of(ground, names, BEST))
     return np.sqrt(correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE)
 
@@ -122,7 +121,7 @@ OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
 }
 OF_CLAY = OF_SAND | {
     MODULUS: clay_moduli,
-    K0: lambda ground, _, __: correlations.at_rest_of_clay(ground),
+    K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
 
 

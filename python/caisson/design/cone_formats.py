@@ -41,8 +41,7 @@ def listed(names: Sequence[str]) -> str:
 
 
 def chosen_of(path: Path, names: Sequence[str], location: str, example: str) -> str:
-    """Return the name of the test that is read. example: of --location. Raises
-    InputError where it is not there or has to be chosen."""
+    """Return the name of the test that is read, one of names. Raises InputError."""
     if location and location not in names:
         raise InputError(
             f"{path} has no test {location!r}; the tests are {listed(names)}"
@@ -64,8 +63,7 @@ def is_gef(lines: Sequence[str]) -> bool:
 
 
 def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
-    """Return row, key and value, divided at its commas, of the lines above the table,
-    and the number of the last one. Raises InputError."""
+    """Return row, key and value of the lines above the table. Raises InputError."""
     found: Keys = []
     for row, line in enumerate(lines, 1):
         if match := re.match(r"#\s*(\w+)\s*=?(.*)", line):
@@ -77,17 +75,15 @@ def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
 
 
 def place_of(text: str) -> int:
-    """Return the place of a column, from 0, by its number, from 1. Raises
-    ValueError."""
+    """Return the place of a column from 0 by its number. Raises ValueError."""
     if int(text) < 1:
         raise ValueError(f"the first column has the number 1, not {text}")
     return int(text) - 1
 
 
 def decimal_of(parts: Sequence[str]) -> tuple[float, str]:
-    """Return the number at the beginning of a value that was divided at its commas, one
-    of which may be a decimal comma, and what comes next. Raises ValueError or
-    IndexError."""
+    """Return the number that begins a value, perhaps with a decimal comma at which it
+    was divided, and what comes next. Raises ValueError or IndexError."""
     has_comma = len(parts) > 1 and re.fullmatch(r"[+-]?\d+", parts[0])
     if has_comma and re.fullmatch(r"\d+([eE][+-]?\d+)?", parts[1]):
         return float(f"{parts[0]}.{parts[1]}"), "".join(parts[2:3])
@@ -100,12 +96,6 @@ def gef_head(row: int, value: list[str]) -> Head:
         value = value[:-1]
     quantity = BY_GEF.get(int(value[-1]), "")
     return Head(place_of(value[0]), ", ".join(value[2:-1]), quantity, value[1], row)
-
-
-def gef_void(_: int, value: list[str]) -> tuple[int, float]:
-    """Return the place of a column, and what stands in it for no value. Raises
-    ValueError or IndexError."""
-    return place_of(value[0]), decimal_of(value[1:])[0]
 
 
 def gef_lines(path: Path, keys: Keys, key: str, read: Callable, what: str) -> list:
@@ -125,8 +115,7 @@ def gef_lines(path: Path, keys: Keys, key: str, read: Callable, what: str) -> li
 
 
 def gef_facts(keys: Keys) -> Facts:
-    """Return what #MEASUREMENTVAR says of the whole test; a value that is no number
-    says nothing."""
+    """Return what #MEASUREMENTVAR says of the test, as far as it is in numbers."""
     found: dict[str, float] = {}
     for _, key, value in keys:
         try:
@@ -141,10 +130,15 @@ def gef_facts(keys: Keys) -> Facts:
 
 
 def gef_rows(path: Path, lines: Sequence[str], keys: Keys, last: int) -> Rows:
-    """Return the rows of the table, below the last line of the keys, with empty cells
-    where a column has no value. Raises InputError."""
+    """Return the rows below the last line, empty for no value. Raises InputError."""
     what = "the number of a column, from 1, and a number"
-    voids = gef_lines(path, keys, "COLUMNVOID", gef_void, what)
+    voids = gef_lines(
+        path,
+        keys,
+        "COLUMNVOID",
+        lambda _, value: (place_of(value[0]), decimal_of(value[1:])[0]),
+        what,
+    )
     # a value is divided at its commas: of a comma two empty parts are left
     marks = {key: "," if value[:2] == ["", ""] else value[0] for _, key, value in keys}
     divider = marks.get("COLUMNSEPARATOR") or None
@@ -245,8 +239,7 @@ def ags_row(path: Path, rows: Rows, name: str) -> tuple[int, list[str]]:
 
 
 def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list[str]]:
-    """Return the net area ratio of the cone of pushes, None where the file has none,
-    and in words that it is not the same for all. keys: LOCA_ID and SCPG_TESN."""
+    """Return the net area ratio of pushes by LOCA_ID and SCPG_TESN, and remarks."""
     heads: list[str] = []
     found = []
     for _, cells in groups.get("SCPG", []):
@@ -268,8 +261,7 @@ def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list
 
 
 def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the names of the tests: locations, and the pushes of each that has
-    several."""
+    """Return the names of the tests: locations, or the pushes of those with several."""
     pushes: dict[str, list[str]] = {}
     for place, push in dict.fromkeys(keys):
         pushes.setdefault(place, []).append(push)
@@ -281,8 +273,7 @@ def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def ags(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> Table:
-    """Return the table of the test at a location, "" for that of the file if it has
-    only one; the pushes of a location are one test. Raises InputError."""
+    """Return the table of the test at a location, "" for the one. Raises InputError."""
     groups = ags_groups(path, lines)
     row_of_heads, texts = ags_row(path, groups["SCPT"], "HEADING")
     row_of_units, units = ags_row(path, groups["SCPT"], "UNIT")
@@ -371,8 +362,7 @@ def bro_records(path: Path, test: ElementTree.Element) -> Rows:
 
 
 def bro(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> Table:
-    """Return the table of a file of BRO-XML; where: its number in the register, needed
-    in a file of several. Raises InputError."""
+    """Return the table of BRO-XML; where: its number in it. Raises InputError."""
     text = "\n".join(lines)
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise InputError(f"{path}: XML with definitions of its own is not read")

@@ -38,8 +38,7 @@ def divided(line: str, divider: str | None) -> list[str]:
 
 
 def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
-    """Return the lines with their numbers; one with a quotation mark that is open, as
-    in a head of two lines, with those that follow to where it is closed."""
+    """Return the lines with their numbers, joined where quotation marks are open."""
     found, begin = list[tuple[int, str]](), 0
     while begin < len(lines):
         some = (lines[begin : begin + n] for n in (1, 2, 3))
@@ -52,8 +51,7 @@ def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
 
 
 def numeric(cells: Sequence[str]) -> float:
-    """Return the share of numbers in the cells of a row that are not empty, 0 where
-    there are fewer than two."""
+    """Return the share of numbers in the filled cells of a row, 0 of less than two."""
     numbers = sum(map(is_number, cells))
     return numbers / sum(map(bool, cells)) if numbers > 1 else 0.0
 
@@ -88,8 +86,7 @@ def rows_of(sheet: Iterable[Sequence[object]]) -> Rows:
 
 
 def first_without_value(values: Any, formulas: Any) -> int:
-    """Return the first row of a sheet with a formula where no formula has a stored
-    value, else 0. formulas: the same sheet, read with them."""
+    """Return the first row of a formula if none has a stored value, else 0."""
     found = 0
     sheets = (sheet.iter_rows(values_only=True) for sheet in (values, formulas))
     for row, (stored, written) in enumerate(zip(*sheets), 1):
@@ -102,8 +99,7 @@ def first_without_value(values: Any, formulas: Any) -> int:
 
 
 def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
-    """Return the rows of a sheet, "" for the only one that has the heads of a test, or
-    of numbers if the columns have names. Raises InputError."""
+    """Return the rows of a sheet, "" for the only one of a test. Raises InputError."""
     try:
         import openpyxl  # which no other file needs
     except ModuleNotFoundError as error:
@@ -151,8 +147,7 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
 
 
 def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:
-    """Return the heads in a row; units are those of the row below where a head has
-    none."""
+    """Return the heads in a row, with units from the row below where they lack them."""
     found = []
     for place, text in enumerate(texts):
         quantity, unit = head_of(text)
@@ -163,8 +158,7 @@ def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Hea
 
 
 def heads_in(rows: Rows) -> int | None:
-    """Return the place of the first row that names depth and cone resistance, None for
-    none."""
+    """Return the place of the first row of heads (depth and q_c), None for none."""
     for i, (_, cells) in enumerate(rows):
         found = {head_of(cell)[0] for cell in cells if cell and not is_number(cell)}
         if found & {"depth", "rods"} and found & {"qc", "qt"}:
@@ -238,8 +232,7 @@ def with_meters(heads: Sequence[Head]) -> tuple[list[Head], list[str]]:
 
 
 def refuse_wide(path: Path, rows: Rows, number: int, divider: str | None) -> None:
-    """Refuse rows with more cells than heads, as decimal commas make them. Raises
-    InputError."""
+    """Refuse rows with more cells than heads (decimal commas). Raises InputError."""
     advice = "each column needs a head"
     if divider == ",":
         advice = "where numbers have commas, divide cells by semicolons"

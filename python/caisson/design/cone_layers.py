@@ -36,9 +36,8 @@ BAND = 3.0  # times the median of Q_tn of a layer, or less than the median over 
 
 @dataclass(frozen=True)
 class Layer:
-    """Soil from top to bottom (m) with its kind, and whether this is given; the rows of
-    the test that count [n_rows of the test]; lenses: top, bottom and kind of other soil
-    in it; bands: the same of "hard" and "soft" soil of its own kind."""
+    """Soil from top to bottom (m) of a kind, given or not, and its rows [n_rows of the
+    test]; lenses: top, bottom and kind of others; bands: "hard" and "soft" soil."""
 
     top: float
     bottom: float
@@ -50,8 +49,7 @@ class Layer:
 
 
 def costs(x: np.ndarray, shortest: int) -> np.ndarray:
-    """Return the sum of squares about the mean of x [n] or [n, n_x] from i to j,
-    [n + 1, n + 1], inf where it is shorter than shortest."""
+    """Return the squares about the mean of x [n, ...] from i to j: [n + 1, n + 1]."""
     n = len(x)
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
     count, found = np.maximum(j - i, 1), np.zeros((n + 1, n + 1))
@@ -109,8 +107,7 @@ def tops_of(
 def with_edges(
     tops: list[float], edges: Sequence[float], nearest: float, last: float
 ) -> list[float]:
-    """Return tops of layers that begin at edges, too; others that are nearer than
-    nearest to an edge give way. last: end of the test (m)."""
+    """Return tops with edges, which replace nearer ones; last: end of the test (m)."""
     inside = [edge for edge in edges if 0 < edge < last]
     kept = [t for t in tops if all(abs(t - edge) >= nearest for edge in inside)]
     return sorted({0.0, *kept, *inside})
@@ -119,8 +116,7 @@ def with_edges(
 def stretches_of(
     ground: Ground, rows: np.ndarray, names: np.ndarray, usual: str
 ) -> list[tuple[float, float, str]]:
-    """Return top, bottom and name where the names [n] of rows [n] are not the usual
-    one for THINNEST_LENS and more."""
+    """Return top, bottom and name of stretches of rows [n] with another name."""
     found: list[tuple[float, float, str]] = []
     places = np.flatnonzero(rows)
     begin = 0
@@ -143,9 +139,8 @@ def bands_of(ground: Ground, rows: np.ndarray) -> list[tuple[float, float, str]]
 
 
 def layers_of(ground: Ground, tops: list[float], given: np.ndarray) -> list[Layer]:
-    """Return the layers with these tops. given: the kind of soil of each row [n] that
-    is not to be judged by the test, else "". Raises ValueError where a layer has no row
-    or no kind."""
+    """Return the layers with these tops. given: kinds of rows [n], "" for that by the
+    test. Raises ValueError where a layer has no row or no kind."""
     kinds = np.where(given != "", given, ground.kinds)
     bottoms = [*tops[1:], float(ground.depth[-1])]
     found = []

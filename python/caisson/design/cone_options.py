@@ -10,10 +10,7 @@ EXAMPLE = "depth_m,qc_MPa,fs_kPa,u2_kPa"  # the columns of a table
 OPTIONS = {
     "location": ("NAME", "one of the tests in a file of AGS or BRO-XML"),
     "sheet": ("NAME", "the sheet of a workbook"),
-    "columns": (
-        "NAMES",
-        f"of a table without heads, as {EXAMPLE}; - for none to be read",
-    ),
+    "columns": ("NAMES", f"of a table without heads, as {EXAMPLE}; - for none"),
     "above": (
         '"qc = 2 MPa, fs = 20 kPa"',
         "the soil above a test that begins below the mudline",
@@ -22,8 +19,7 @@ OPTIONS = {
 
 
 class How(NamedTuple):
-    """What options say of a file: which test in it, which sheet, the names of the
-    columns, and the soil above the first row; "" for nothing."""
+    """What options say of a file: test, sheet, columns, soil above; "" for nothing."""
 
     location: str = ""
     sheet: str = ""
@@ -36,8 +32,7 @@ class How(NamedTuple):
         return any(self)
 
     def refuse(self) -> None:
-        """Refuse what is said where no file of a cone test is given. Raises
-        InputError."""
+        """Refuse what is said where no cone test is given. Raises InputError."""
         for name, value in self._asdict().items():
             if value:
                 raise InputError(f"--{name} is for a cone test, --cpt")

@@ -21,15 +21,8 @@ from caisson.design.cone_estimates import (
     growth_of,
 )
 from caisson.design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
-from caisson.design.ground import (
-    CLAY,
-    CLAY_ABOVE,
-    SAND,
-    SAND_BELOW,
-    SILT,
-    WATER,
-    Ground,
-)
+from caisson.nature import WATER
+from caisson.design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
 LINE, BAND = "#2166ac", "#2166ac"
@@ -39,9 +32,8 @@ WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides the
 
 
 class Panel(NamedTuple):
-    """A panel: title, profile [n] in the unit of the title, and the estimate to be
-    drawn with its scale, "" for none. growth: what a modulus at 100 kPa is multiplied
-    with at each depth [n], where a layer has one."""
+    """A panel: title, profile [n], estimate ("" for none) and scale; growth [n]: factor
+    on a modulus at 100 kPa."""
 
     title: str
     profile: np.ndarray
@@ -206,30 +198,31 @@ def legend_of(
     tip: float | None,
 ) -> None:
     """Draw the legend below the panels, with a note."""
-    kinds = {e.layer.kind for e in every}
     lenses = {kind for e in every for _, _, kind in e.layer.lenses}
+    kinds = {e.layer.kind for e in every}
+    dashed = {"linestyle": "--"}
+    unknown = {"facecolor": "none", "edgecolor": "0.55", "hatch": "//"}
+    lens = {"edgecolor": "0.3", "hatch": "...."}
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=PROFILE, linewidth=0.9, label="test, by row"),
         Line2D([], [], color=LINE, linewidth=2.2, label="best estimate of the layer"),
         Patch(color=BAND, alpha=0.22, label="low to high"),
-    ]
-    handles += [Patch(color=COLORS[k], label=k) for k in COLORS if k in kinds]
-    handles += [
-        Patch(facecolor=COLORS[k], edgecolor="0.3", hatch="....", label=f"lens of {k}")
-        for k in COLORS
-        if k in lenses
+        *(Patch(color=COLORS[k], label=k) for k in COLORS if k in kinds),
+        *(
+            Patch(facecolor=COLORS[k], label=f"lens of {k}", **lens)
+            for k in COLORS
+            if k in lenses
+        ),
     ]
     if ground.pore_pressure is not None:
-        text = "water at rest"
-        handles.append(Line2D([], [], color=WATER_LINE, linestyle="--", label=text))
-    if ground.above:
-        text = f"not measured, {ground.above}"
         handles.append(
-            Patch(facecolor="none", edgecolor="0.55", hatch="//", label=text)
+            Line2D([], [], color=WATER_LINE, label="water at rest", **dashed)
         )
+    if ground.above:
+        handles.append(Patch(label=f"not measured, {ground.above}", **unknown))
     if tip is not None:
-        text = f"skirt tip at {tip:g} m"
-        handles.append(Line2D([], [], color=TIP, linestyle="--", label=text))
+        label = f"skirt tip at {tip:g} m"
+        handles.append(Line2D([], [], color=TIP, label=label, **dashed))
     figure.legend(
         handles=handles,
         loc="lower center",
@@ -249,8 +242,7 @@ def draw(
     names: dict[str, str],
     tip: float | None = None,
 ) -> Path:
-    """Write the picture. names: the correlation of each quantity; tip: the depth to
-    which a skirt goes (m)."""
+    """Write the picture. names: of correlations; tip: of a skirt (m)."""
     panels = panels_of(ground, every, names)
     figure = Figure(figsize=(2.0 + 2.3 * len(panels), 7.5))
     columns = list(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0])

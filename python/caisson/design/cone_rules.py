@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.disk import InputError
+from caisson.nature import WATER
 from caisson.design.cone_table import Table, cell_of, more
 from caisson.design.cone_words import QUANTITIES
 
@@ -27,7 +28,6 @@ RANGES = {
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
 WEAK = 200e3  # Pa; less is doubtful
 THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
-WATER = 9.81e3  # N/m3, unit weight
 SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 START = 0.5  # m; a first row that is deeper leaves soil of which nothing is known
 FIRST = 0.5  # m of readings that tell of the soil above them
@@ -47,9 +47,8 @@ def rows_text(rows: np.ndarray) -> str:
 
 
 class Readings:
-    """The rows of a test: the number of each in the file, its values by quantity in m
-    and Pa (nan for none) and the number of its push, [n] each; and remarks on what was
-    made of them. Each rule changes or refuses them, by InputError."""
+    """The rows of a test: number in the file, values in m and Pa (nan for none) and
+    push, [n] each; and remarks. Each rule changes or refuses them, by InputError."""
 
     def __init__(
         self,
@@ -89,8 +88,7 @@ class Readings:
             raise InputError(f"{self.path}, row {row}: {why(places[0])}{others}")
 
     def check_units(self) -> None:
-        """Refuse cone resistances that are thousands with separators, which would be
-        read as decimals."""
+        """Refuse cone resistances with separators of thousands, which look decimal."""
         column = self.table.columns[self.tip]
         texts = [cell_of(cells, column.place) for _, cells in self.table.rows]
         there = [text for text in texts if re.search("[.,]", text)]
@@ -168,8 +166,7 @@ class Readings:
             self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
 
     def join_pushes(self) -> None:
-        """Put the pushes of a borehole below each other, and name the gaps; rows that
-        have no order are sorted."""
+        """Put pushes below each other, and name gaps; sort rows without an order."""
         if not self.table.is_sorted:
             self.keep(np.argsort(self.values["depth"], kind="stable"))
         depth, numbers = self.values["depth"], np.unique(self.push)
@@ -214,8 +211,7 @@ class Readings:
         self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
 
     def leave_out_no_load(self) -> None:
-        """Leave out the rows in which the cone met no soil: a resistance of less than 0
-        or the sleeve friction; at the start of a test, or few."""
+        """Leave out rows in which the cone met no soil, at the start or few."""
         tip = self.values[self.tip]
         friction = self.values.get("fs", np.zeros(len(tip)))
         low = RANGES[self.tip][0]
@@ -238,8 +234,7 @@ class Readings:
         )
 
     def check_order(self) -> None:
-        """Leave out rows that repeat the depth of the row before, and few that go
-        back, and refuse others."""
+        """Leave out rows that repeat a depth, and few that go back; refuse others."""
         depth = self.values["depth"]
         above = np.maximum.accumulate(depth)
         same = np.concatenate([[False], depth[1:] == above[:-1]])
@@ -275,8 +270,7 @@ class Readings:
             self.refuse(wrong, lambda i: self.out_of_range(name, values[i]))
 
     def complete_friction(self) -> None:
-        """Take a drift below 0 as 0, and where there is none the share of q_c of the
-        rows next to it; refuse a friction in another unit than its column says."""
+        """Fill gaps of the friction by shares of q_c; refuse one in another unit."""
         if not self.has_values("fs"):
             return
         friction, tip = self.values["fs"], np.maximum(self.values[self.tip], 1.0)
@@ -305,8 +299,7 @@ class Readings:
         self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
 
     def has_values(self, name: str) -> bool:
-        """Return whether a column has values in enough rows to tell of the others; one
-        that has not is left out, and said."""
+        """Return whether a column has enough values; leave it out if not."""
         if name not in self.values:
             return False
         number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)

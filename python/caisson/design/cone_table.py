@@ -20,8 +20,7 @@ Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its c
 
 
 class Head(NamedTuple):
-    """A column as the file has it: its place, its name there, the quantity that this
-    means ("" for none), its unit as written, and the row that says so."""
+    """A column of the file: place, name, quantity ("" for none), unit and row."""
 
     place: int
     text: str
@@ -49,12 +48,7 @@ class Facts(NamedTuple):
 
 @dataclass
 class Table:
-    """The rows of a test, and its columns by quantity.
-
-    unread: heads that were not read; units_are: where the units stand; pushes: the name
-    of the push of each row, where a test has several; is_sorted: whether the order of
-    the rows is that of the depths.
-    """
+    """The rows of a test, its columns by quantity, and how they are to be read."""
 
     columns: Mapping[str, Column]
     rows: Rows
@@ -73,8 +67,7 @@ def cell_of(cells: Sequence[str], place: int) -> str:
 
 
 def value_of(text: str) -> float:
-    """Return a number with a decimal point or comma, nan of an empty cell and of one
-    that stands for no value. Raises ValueError."""
+    """Return a number, nan of an empty cell and of a void. Raises ValueError."""
     if not text:
         return nan
     value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)
@@ -92,8 +85,7 @@ def is_number(text: str) -> bool:
 
 
 def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise InputError with the first row that is wrong, and the numbers of others, if
-    there are some."""
+    """Raise InputError with the first wrong row, and the numbers of others."""
     if wrong:
         row, why = wrong[0]
         raise InputError(f"{path}, row {row}: {why}{more(wrong[1:])}")
@@ -126,9 +118,8 @@ def unit_of(path: Path, head: Head) -> float:
 def columns_of(
     path: Path, heads: Sequence[Head], rows: Rows, wanted: Sequence[str], advice: str
 ) -> dict[str, Column]:
-    """Return the columns of the quantities that are wanted and there. A quantity
-    without values in most rows gives way to the one that may stand for it. advice: how
-    the file would name depth and cone resistance. Raises InputError."""
+    """Return the columns that are wanted and there, or those that may stand for them.
+    advice: how the file would name depth and cone resistance. Raises InputError."""
     found: dict[str, Column] = {}
     for name in wanted:
         some = [h for h in heads if h.quantity == name]

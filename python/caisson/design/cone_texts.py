@@ -20,13 +20,7 @@ from caisson.design.cone_estimates import (
     Estimates,
 )
 from caisson.design.cone_layers import BAND, Layer
-from caisson.design.correlations import (
-    ANGLE,
-    DENSITY,
-    EVERY,
-    MODULUS,
-    STRENGTH,
-)
+from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
 from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
@@ -35,8 +29,7 @@ WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 
 
 class Shown(NamedTuple):
-    """How a quantity is shown: its head, the column of the file, and what it is
-    multiplied by for both."""
+    """How a quantity is shown: head, column of the file, scale and digits of both."""
 
     head: str
     column: str
@@ -91,8 +84,7 @@ def text_of_test(test: Interpretation) -> str:
 
 
 def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
-    """Return where I_c, friction ratio and pore pressure of a layer do not agree with
-    each other, or with the kind that is given."""
+    """Return where I_c, friction and pressure of a layer disagree, or with its kind."""
     index, friction, behavior, pressure, excess = (
         ground.median(values, layer.rows)
         for values in (
@@ -137,8 +129,7 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
 
 
 def remarks(test: Interpretation) -> list[str]:
-    """Return what the table rests on, lenses and bands, what can be done with other
-    soil than sand, gaps, and columns that were not read."""
+    """Return what the table rests on, lenses and bands, gaps, and what is not read."""
     have = {name for e in test.layers for name in e.values}
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:

@@ -2,8 +2,10 @@
 """The quantities of cone penetration tests, and what files call them: the only table of
 names and units, for all formats."""
 import re
+import tomllib
 import unicodedata
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 LENGTH = {
@@ -36,92 +38,11 @@ class Quantity(NamedTuple):
     words: str
 
 
+WORDS = Path(__file__).with_suffix(".toml")
+KINDS = {"length": LENGTH, "stress": STRESS, "ratio": RATIO}
 QUANTITIES = {
-    "depth": Quantity(
-        "depth",
-        LENGTH,
-        "SCPT_DPTH",
-        11,
-        1,
-        "m",
-        "depth z testdepth soundingdepth correcteddepth"
-        " depthbelowmudline depthbelowseabed depthbelowseafloor"
-        " depthbelowground depthbelowgroundlevel depthbelowsurface"
-        " tiefe teufe sondiertiefe tiefeuntergok tiefeugok tiefeuntergelande"
-        " tiefeuntergelandeoberkante tiefeuntermeeresboden"
-        " diepte sondeerdiepte gecorrigeerdediepte dieptetovmaaiveld dieptetovmv"
-        " diepteondermaaiveld dieptebenedenmaaiveld"
-        " prof profondeur profondeursouslesol profondeursoustn",
-    ),
-    "rods": Quantity(
-        "penetration length",
-        LENGTH,
-        "",
-        1,
-        0,
-        "m",
-        "penetration penetrationdepth penetrationlength testlength length"
-        " sondeerlengte sondeertrajectlengte lengte sondierlange",
-    ),
-    "qc": Quantity(
-        "cone resistance",
-        STRESS,
-        "SCPT_RES",
-        2,
-        3,
-        "MPa",
-        "qc coneresistance conetipresistance tipresistance conepressure endresistance"
-        " spitzendruck spitzenwiderstand konuswiderstand sondierspitzenwiderstand"
-        " conusweerstand conuswaarde conuswaarden puntweerstand sondeerwaarde"
-        " sondeerwaarden conusdruk"
-        " resistancedepointe resistanceenpointe resistancedecone resistanceducone"
-        " resistanceaucone pressiondepointe",
-    ),
-    "qt": Quantity(
-        "corrected cone resistance",
-        STRESS,
-        "SCPT_QT",
-        13,
-        4,
-        "MPa",
-        "qt correctedconeresistance correctedtipresistance correctedconetipresistance"
-        " totalconeresistance coneresistancecorrected korrigierterspitzendruck"
-        " korrigierterspitzenwiderstand gecorrigeerdeconusweerstand"
-        " resistancedepointecorrigee resistancedeconecorrigee",
-    ),
-    "fs": Quantity(
-        "sleeve friction",
-        STRESS,
-        "SCPT_FRES",
-        3,
-        18,
-        "kPa",
-        "fs sleevefriction sleeveresistance localfriction localsleevefriction"
-        " unitsleevefriction frictionresistance sidefriction localsidefriction"
-        " mantelreibung lokalemantelreibung ortlichemantelreibung"
-        " plaatselijkewrijving plaatselijkekleef lokalewrijving mantelwrijving kleef"
-        " frottementlateral frottementlateralunitaire frottementlaterallocal",
-    ),
-    "rf": Quantity(
-        "friction ratio",
-        RATIO,
-        "SCPT_FRR",
-        4,
-        24,
-        "%",
-        "rf frictionratio reibungsverhaltnis wrijvingsgetal rapportdefrottement",
-    ),
-    "u2": Quantity(
-        "pore pressure",
-        STRESS,
-        "SCPT_PWP2",
-        6,
-        22,
-        "kPa",
-        "u2 porepressure porewaterpressure dynamicporepressure shoulderporepressure"
-        " porenwasserdruck porendruck waterspanning poriewaterspanning poriendruk"
-        " waterdruk pressioninterstitielle pressiondeleau",
-    ),
+    key: Quantity(units=KINDS[found.pop("units")], **found)
+    for key, found in tomllib.loads(WORDS.read_text(encoding="utf-8")).items()
 }
 # what lines above the heads may say of the whole test
 FACTS = {
@@ -151,15 +72,13 @@ def plain(text: str) -> str:
 
 
 def unit_in(text: str) -> str:
-    """Return the unit that a text begins with, "m" of "m (meter)" or "[m below NAP]",
-    or its first word."""
+    """Return the unit that a text begins with, as "m" of "m (meter)", or a word."""
     words = re.findall(r"[a-z0-9/%°]+", plain(text))
     return words[0] if words else ""
 
 
 def quantity_of(name: str) -> str:
-    """Return the quantity of a name, "" if none: in words, with or without its symbol,
-    as in "Spitzendruck qc"."""
+    """Return the quantity of a name, "" if none, also of "Spitzendruck qc"."""
     words = [w for w in re.split(r"[^a-z0-9]+", name) if w and w not in FILLERS]
     if found := BY_WORD.get("".join(words)):
         return found
@@ -172,8 +91,7 @@ def quantity_of(name: str) -> str:
 
 
 def head_of(text: str) -> tuple[str, str]:
-    """Return quantity and unit of a head such as depth_m, "qc (MPa)" or "Tiefe in m";
-    each "" where it is not known or not there."""
+    """Return quantity and unit of a head such as "qc (MPa)", "" for none."""
     low = plain(text)
     if is_level(low):
         return "", ""
@@ -195,8 +113,7 @@ def is_level(text: str) -> bool:
 
 
 def fact_of(cells: Sequence[str]) -> tuple[str, float] | None:
-    """Return what a line says of the whole test, a key of FACTS and its value, "water"
-    and 1.2 of "Assumed GWL:, 1.2 m"; None where it says nothing known."""
+    """Return a key of FACTS and its value of a line, or None."""
     text = " ".join(cell.strip() for cell in cells if cell.strip())
     found = re.fullmatch(r"(\D*?)[\s:=,]*([+-]?\d+(?:[.,]\d+)?)\s*(\D*)", text)
     for fact, words in FACTS.items() if found else ():

@@ -66,7 +66,8 @@ CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high str
 MODULUS_RATIOS = (2.0, 2.5, 3.5)
 SCATTER_OF_MODULUS = 1.5  # a factor
 ANGLES = 25.0, 50.0  # between which an angle is held
-RESTS_OF_CLAY = 0.4, 1.5  # between which K_0 is held
+# between which K_0 = 0.1 (q_t - sigma_v)/sigma'_v of clay (Kulhawy & Mayne 1990) is
+RESTS_OF_CLAY = 0.4, 1.5
 ROUNDS = 20
 
 LOW, BEST, HIGH = -1, 0, 1
@@ -83,44 +84,42 @@ class Correlation(NamedTuple):
     holds: str
 
 
-EVERY = (
-    Correlation(
-        DENSITY,
-        "jamiolkowski-2003",
-        "Jamiolkowski, Lo Presti & Manassero (2003)",
-        "silica sand, vertical effective stress 50 to 400 kPa",
-    ),
-    Correlation(
-        DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"
-    ),
-    Correlation(
-        ANGLE,
-        "bolton-1986-tip",
-        "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)",
-        "quartz sand under a tip, from relative density",
-    ),
-    Correlation(
-        ANGLE, "kulhawy-mayne-1990", "Kulhawy & Mayne (1990)", "clean silica sand"
-    ),
-    Correlation(
-        ANGLE, "bolton-1986", "Bolton (1986)", "quartz sand, from relative density"
-    ),
-    Correlation(
-        MODULUS,
-        "schmertmann-1978",
-        "Schmertmann, Hartman & Brown (1978)",
-        "sand under footings",
-    ),
-    Correlation(
-        MODULUS,
-        "robertson-2009",
-        "Robertson (2009)",
-        "young uncemented silica sand, strains of about 0.1 %",
-    ),
-    Correlation(
-        STRENGTH, "nkt", "Robertson & Cabal (2015)", "clay, and silt without drainage"
-    ),
-)
+LAB = "silica sand, vertical effective stress 50 to 400 kPa"
+AT_TIP = "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)"
+SMALL = "young uncemented silica sand, strains of about 0.1 %"
+EVERY = [
+    Correlation(quantity, name, source, holds)
+    for quantity, name, source, holds in (
+        (
+            DENSITY,
+            "jamiolkowski-2003",
+            "Jamiolkowski, Lo Presti & Manassero (2003)",
+            LAB,
+        ),
+        (DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"),
+        (
+            ANGLE,
+            "bolton-1986-tip",
+            AT_TIP,
+            "quartz sand under a tip, from relative density",
+        ),
+        (ANGLE, "kulhawy-mayne-1990", "Kulhawy & Mayne (1990)", "clean silica sand"),
+        (ANGLE, "bolton-1986", "Bolton (1986)", "quartz sand, from relative density"),
+        (
+            MODULUS,
+            "schmertmann-1978",
+            "Schmertmann, Hartman & Brown (1978)",
+            "sand under footings",
+        ),
+        (MODULUS, "robertson-2009", "Robertson (2009)", SMALL),
+        (
+            STRENGTH,
+            "nkt",
+            "Robertson & Cabal (2015)",
+            "clay, and silt without drainage",
+        ),
+    )
+]
 BY_NAME = {correlation.name: correlation for correlation in EVERY}
 
 
@@ -213,9 +212,3 @@ def moduli_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
 def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:
     """Return s_u (Pa) [n]."""
     return ground.net / (CONE_FACTORS[end + 1] * ground.cone_factor)
-
-
-def at_rest_of_clay(ground: Ground) -> np.ndarray:
-    """Return K_0 = 0.1 (q_t - sigma_v)/sigma'_v [n] (Kulhawy & Mayne 1990), held
-    within RESTS_OF_CLAY."""
-    return np.clip(0.1 * ground.net / ground.stress, *RESTS_OF_CLAY)

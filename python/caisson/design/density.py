@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-ATMOSPHERE = 100e3
+from caisson.nature import ATMOSPHERE
+
 CRITICAL_ANGLE = 33.0  # of quartz
 MOST_INDEX = 4.0  # of I_R
 ROUNDS = 40  # of D_r and the stress at the tip; each leaves a third of the error

@@ -20,19 +20,9 @@ HELP = (
     " effective stress at the start (Pa)"
 )
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "min": min,
-    "max": max,
-    "abs": abs,
+    **{"min": min, "max": max, "abs": abs},
     "if": lambda condition, yes, no: yes if condition else no,
-    "sqrt": math.sqrt,
-    "exp": math.exp,
-    "log": math.log,
-    "log10": math.log10,
-    "tanh": math.tanh,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "pow": math.pow,
+    **{f: getattr(math, f) for f in "sqrt exp log log10 tanh sin cos tan pow".split()},
 }
 UNITS_OF_NUMBERS = [unit for unit in quantity.UNITS if unit]
 OF_TERMS = ("min", "max", "abs", "if")  # their arguments have the same unit
@@ -64,8 +54,7 @@ class Token:
 
 
 def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
-    """Return the parts of an expression, with the sign of each product. Raises
-    ValueError for a name that is neither a variable nor a function nor a symbol."""
+    """Return the parts of an expression, with signs of products. Raises ValueError."""
     found, place = list[Token](), 0
     text = re.sub(r"(?<=[A-Za-z])[²³]", lambda m: plain(m[0]), text.strip())
     is_call = False
@@ -88,16 +77,14 @@ def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
 
 
 def check_gradient(text: str, start: int, end: int) -> None:
-    """Refuse a unit per m, at a place of a text, whose term does not have the depth.
-    Raises ValueError."""
+    """Refuse a unit per m without the depth in its term. Raises ValueError."""
     term = re.split(r"[+-]", text[:start])[-1] + re.split(r"[+-]", text[end:])[0]
     if not re.search(r"(?<![A-Za-z])[dz]\b|[()]", term):
         raise ValueError(f"{text!r}: {text[start:end].strip()} needs *z, the depth")
 
 
 def named(token: Token, text: str, symbols: Mapping[str, str]) -> Token:
-    """Return the variable, function or symbol that a name stands for. Raises
-    ValueError."""
+    """Return the variable, function or symbol of a name. Raises ValueError."""
     if token.text in DEPTHS:
         return replace(token, text=DEPTHS[0])
     if token.text in symbols:
@@ -108,8 +95,7 @@ def named(token: Token, text: str, symbols: Mapping[str, str]) -> Token:
 
 
 def text_of(tokens: Sequence[Token], unit: str, symbols: Mapping[str, str]) -> str:
-    """Return the text in the unit of an entry, a unit within it as a factor. Raises
-    ValueError."""
+    """Return the text in a unit, other units as factors. Raises ValueError."""
     found, number = "", ""
     for token in tokens:
         piece = token.space + token.text
@@ -142,8 +128,7 @@ def name_of(node: ast.Call) -> str:
 
 
 def dimension(node: ast.expr) -> int:
-    """Return how many units, here named U, an expression is multiplied with. Raises
-    ValueError where the terms of a sum differ."""
+    """Return how often a unit, named U, multiplies an expression. Raises ValueError."""
     if isinstance(node, ast.Name):
         return int(node.id in ("U", *STRESSES))
     if isinstance(node, ast.UnaryOp):
@@ -177,8 +162,7 @@ def has_unit(token: Token) -> bool:
 
 
 def refuse_no_expression(text: str, tokens: Sequence[Token]) -> None:
-    """Refuse parentheses without their other one, signs without a value and numbers
-    without an end. Raises ValueError."""
+    """Refuse lone parentheses or signs and endless numbers. Raises ValueError."""
     body = "".join(t.text for t in tokens if t.kind != "unit")
     if re.search(r"[?&|!=]", body):  # forms that only the program reads
         return
@@ -191,9 +175,8 @@ def refuse_no_expression(text: str, tokens: Sequence[Token]) -> None:
 
 
 def in_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
-    """Return an expression in the unit of its entry. A unit that is the only one and
-    the last word counts for all of it. symbols: {name: expression in this unit}. Raises
-    ValueError with what is wrong."""
+    """Return an expression in the unit of its entry; a last and only unit counts for
+    all. symbols: {name: expression in this unit}. Raises ValueError."""
     if unit == "Pa":  # a unit weight is a gradient of stress
         text = re.sub(r"N/m[3³](?!\w)", "N/m2/m", text)
     tokens = tokens_of(text, symbols)
@@ -222,8 +205,7 @@ def in_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
 
 
 def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
-    """Return the value of an entry, a number, an expression or a word, in the unit of
-    the entry. Raises ValueError with what is wrong."""
+    """Return the value of an entry in its unit, or its word. Raises ValueError."""
     if re.fullmatch(NUMBER, text):
         return text
     word = re.fullmatch(rf"{NUMBER}\s*(.*?)(?:/m)?", text)
@@ -244,14 +226,8 @@ def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
         return text  # the program knows what it may be
 
 
-def gives_unit(text: str) -> bool:
-    """Return whether a number or an expression has a unit. Raises ValueError."""
-    return any(map(has_unit, tokens_of(text)))
-
-
 def value_at(text: str, depth: float, stress: float) -> float | None:
-    """Return an expression of the program at a depth (m) and an effective stress (Pa);
-    None where its form is not known."""
+    """Return the value of an expression at depth (m) and stress (Pa), or None."""
     try:
         names = {"d": depth, "s": stress, "p": stress, "pi": math.pi}
         functions = {

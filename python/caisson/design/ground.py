@@ -36,10 +36,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson.design.cone_file import Test
-from caisson.design.cone_rules import WATER  # its unit weight
+from caisson.nature import ATMOSPHERE, GRAVITY, WATER
 
-ATMOSPHERE = 100e3
-GRAVITY = 9.81
 LEAST_STRESS = 1e3  # of sigma'_v where something is divided by it: some 0.1 m of depth
 WEIGHTS = 14e3, 22e3  # between which the formula is held
 LEAST_OF_SAND = 17.5e3
@@ -223,7 +221,6 @@ def kinds_of(
 
 
 def porosity_of(weight: float, grains: float, is_wet: bool) -> float:
-    """Return the porosity of soil with a unit weight (kN/m3), of the wet soil or in
-    water, and grains of a density (kg/m3)."""
+    """Return the porosity for a unit weight (kN/m3) and grains (kg/m3)."""
     in_water = 1e3 * weight - (WATER if is_wet else 0.0)
     return 1 - in_water / (grains * GRAVITY - WATER)

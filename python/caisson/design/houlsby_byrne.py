@@ -32,20 +32,15 @@ from dataclasses import dataclass
 from math import exp, inf, nan, pi, radians, tan
 from typing import NamedTuple
 
+import numpy as np
+
 from caisson.design.method import Forces
 
 # N_gamma of a rough strip footing by the method of characteristics (Martin
 # 2005, Exact bearing capacity calculations using the method of
-# characteristics): {friction angle in degrees: N_gamma}.
-N_GAMMA = {
-    15: 1.181,
-    20: 2.839,
-    25: 6.491,
-    30: 14.754,
-    35: 34.476,
-    40: 85.566,
-    45: 234.21,
-}
+# characteristics), by friction angles in degrees.
+ANGLES = (15, 20, 25, 30, 35, 40, 45)
+N_GAMMA = (1.181, 2.839, 6.491, 14.754, 34.476, 85.566, 234.21)
 
 
 def bearing_factor_surcharge(phi: float) -> float:
@@ -56,25 +51,14 @@ def bearing_factor_surcharge(phi: float) -> float:
 def bearing_factor_weight(phi: float) -> float:
     """Return N_gamma; 0, on the safe side, outside the table of 15 to 45 degrees.
 
-    Between two entries N_gamma / ((N_q - 1) tan(phi)), which hardly changes
-    with phi, is interpolated.
+    N_gamma / ((N_q - 1) tan(phi)), which hardly changes with phi, is interpolated.
     """
 
     def scale(angle: float) -> float:
         return (bearing_factor_surcharge(angle) - 1) * tan(radians(angle))
 
-    if phi in N_GAMMA:
-        return N_GAMMA[int(phi)]
-    below = [angle for angle in N_GAMMA if angle < phi]
-    above = [angle for angle in N_GAMMA if angle > phi]
-    if not below or not above:
-        return 0.0
-    low, high = max(below), min(above)
-    weight = (phi - low) / (high - low)
-    ratio = (1 - weight) * N_GAMMA[low] / scale(low) + weight * N_GAMMA[high] / scale(
-        high
-    )
-    return ratio * scale(phi)
+    ratios = [n / scale(angle) for angle, n in zip(ANGLES, N_GAMMA)]
+    return float(np.interp(phi, ANGLES, ratios, 0.0, 0.0)) * scale(phi)
 
 
 @dataclass(frozen=True)
@@ -151,8 +135,7 @@ class Wall:
 
 
 class Caisson:
-    """The resistance of one caisson; h is the embedment of its tip (m), and all
-    forces are N."""
+    """The resistance of a caisson; h is the embedment of its tip (m), forces in N."""
 
     def __init__(
         self,
@@ -246,8 +229,7 @@ class Caisson:
 
 
 class Assumptions(NamedTuple):
-    """What the method assumes, which no ground investigation gives. K tan(delta) is
-    (low, high)."""
+    """What the method assumes of the ground. K tan(delta) is (low, high)."""
 
     k_tan_delta_inside: tuple[float, float] = (0.45, 0.8)
     k_tan_delta_outside: tuple[float, float] = (0.45, 0.8)
@@ -266,8 +248,7 @@ UNDISTURBED = "undisturbed"
 
 
 class HoulsbyByrne:
-    """The forces of jacking as a method: a range of K tan(delta), and below it
-    undisturbed ground without stress enhancement."""
+    """Jacking by a range of K tan(delta), and below it undisturbed ground."""
 
     cases = ("low", "high")
 

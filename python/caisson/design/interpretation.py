@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,8 +29,7 @@ KINDS = (SAND, SILT, CLAY)
 
 @dataclass(frozen=True)
 class Interpretation:
-    """A test: its ground, the correlations by quantity, and its layers with their
-    estimates; weight: where the unit weight comes from."""
+    """A test with ground, correlations, layers; weight: source of the unit weight."""
 
     file: Path
     test: Test
@@ -60,8 +59,7 @@ def depths(text: str) -> list[float]:
 
 
 class Soil(NamedTuple):
-    """The kind of soil that is given, of a layer by its number, of depths (m) from top
-    to bottom, or of all."""
+    """The kind of soil that is given: of a layer, of depths (m), or of all."""
 
     kind: str
     layer: int = 0
@@ -93,56 +91,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("how the cone test is read")
     cone_options.add_arguments(group)
     add = group.add_argument
-    add(
-        "--tops",
-        type=depths,
-        metavar="0,M,...",
-        help="tops of the layers (m), instead of those found",
+    text = "tops of the layers (m), instead of those found"
+    add("--tops", type=depths, metavar="0,M,...", help=text)
+    text = "thickness of the thinnest layer, default %(default)g m"
+    default = layers.THINNEST
+    add("--thinnest", type=length, default=default, metavar="M", help=text)
+    text = f"one of {', '.join(BY_NAME)}; give one option for each"
+    every: dict[str, Any] = {"action": "append", "default": []}
+    add("--correlation", choices=BY_NAME, metavar="NAME", help=text, **every)
+    text = (
+        "sand, silt or clay: of all the soil, as needed where the test has no sleeve"
+        " friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option for each"
     )
-    add(
-        "--thinnest",
-        type=length,
-        default=layers.THINNEST,
-        metavar="M",
-        help="thickness of the thinnest layer, default %(default)g m",
-    )
-    add(
-        "--correlation",
-        action="append",
-        default=[],
-        choices=BY_NAME,
-        metavar="NAME",
-        help=f"one of {', '.join(BY_NAME)}; give one option for each",
-    )
-    add(
-        "--soil",
-        type=soil,
-        action="append",
-        default=[],
-        metavar="KIND",
-        help="sand, silt or clay: of all the soil, as needed where the test has no"
-        " sleeve friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option"
-        " for each",
-    )
-    add(
-        "--nkt",
-        type=number(""),
-        metavar="N",
-        help=f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}",
-    )
-    add(
-        "--unit-weight",
-        type=number("kN/m3"),
-        metavar="KN/M3",
-        help="of the wet soil; needed where the test has no sleeve friction",
-    )
-    add(
-        "--area-ratio",
-        type=number(""),
-        metavar="A",
-        help="net area ratio of the cone, for u2; default: that of an AGS or GEF file,"
-        f" or {AREA_RATIO:g}",
-    )
+    add("--soil", type=soil, metavar="KIND", help=text, **every)
+    text = f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}"
+    add("--nkt", type=number(""), metavar="N", help=text)
+    text = "of the wet soil; needed where the test has no sleeve friction"
+    add("--unit-weight", type=number("kN/m3"), metavar="KN/M3", help=text)
+    text = f"of an AGS or GEF file, or {AREA_RATIO:g}"
+    text = f"net area ratio of the cone, for u2; default: that {text}"
+    add("--area-ratio", type=number(""), metavar="A", help=text)
 
 
 def check(file: Path, test: Test, options: argparse.Namespace) -> None:
@@ -182,8 +150,7 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
 
 
 def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ...]]:
-    """Return the net area ratio of the cone: the one given, or that of the file, and in
-    words which one it is where it has a choice."""
+    """Return the net area ratio that counts, and its source in words."""
     of_file = test.area_ratio
     if given is not None or of_file is None or test.pore_pressure is None:
         return AREA_RATIO if given is None else given, ()
@@ -198,8 +165,7 @@ def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ..
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
-    """Return what a test says. deepest: below it (m) it does not count. Raises
-    InputError."""
+    """Return what a test says down to the deepest (m). Raises InputError."""
     whole = cone_file.read(file, how=cone_options.how_of(options))
     check(file, whole, options)
     area_ratio, said = area_ratio_of(whole, options.area_ratio)
@@ -233,8 +199,7 @@ def interpret(
 
 
 def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
-    """Return the tops of the layers (m): those given or found, and the ends of what is
-    given by --soil and --above."""
+    """Return the tops of layers (m), with the ends of --soil and --above."""
     last = float(ground.depth[-1])
     edges = [edge for soil in options.soil for edge in (soil.top, soil.bottom)]
     edges += [ground.measured_from] if ground.above == GIVEN else []
@@ -245,8 +210,7 @@ def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
 
 
 def check_soil(given: Sequence[Soil], end: float) -> None:
-    """Refuse depths below the end of the test (m), and those that are given two kinds.
-    Raises InputError."""
+    """Refuse depths of --soil below the end (m) or given twice. Raises InputError."""
     above = Soil("", 0, 0.0, 0.0)
     parts = [soil for soil in given if soil.bottom < inf]
     for soil in sorted(parts, key=lambda soil: soil.top):
@@ -264,8 +228,7 @@ def check_soil(given: Sequence[Soil], end: float) -> None:
 
 
 def given_kinds(ground: Ground, tops: list[float], given: Sequence[Soil]) -> np.ndarray:
-    """Return the kind of soil of each row [n] that is given, "" for none; what is given
-    of a part goes before what is given of all. Raises InputError."""
+    """Return the kind given of each row [n], "" for none. Raises InputError."""
     found = np.full(len(ground.depth), "", dtype="<U4")
     for soil in sorted(given, key=lambda soil: soil.layer > 0 or soil.bottom < inf):
         top, bottom = soil.top, soil.bottom

@@ -62,8 +62,7 @@ def reverse_bearing(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
 
 
 def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
-    """Return the top of the sand below the clay in which the tip is or, with the tip in
-    sand, below the clay that it has passed; nan without such sand or clay."""
+    """Return the top of sand below the clay of the tip, or passed by it; or nan."""
     is_sand, tip = [not layer.strength for layer in layers], tip_layer(layers, h)
     if not is_sand[tip]:
         return min(
@@ -74,8 +73,7 @@ def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
 
 
 def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
-    """Return the suction that lifts the clay off the sand below; nan where there is
-    none."""
+    """Return the suction that lifts the clay off the sand below, or nan."""
     bottom = bottom_of_clay(layers, h)
     if np.isnan(bottom):
         return nan
@@ -89,9 +87,8 @@ def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
 def allowable(
     skirt: Skirt, layers: Sequence[Layer], depth: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) at which the plug gives way, [n] at embedments depth [n]
-    (m), nan where a mechanism is none; only those that there are. layers: from the
-    mudline down."""
+    """Return the suctions (Pa) at which the plug gives way, [n] at embedments [n] (m),
+    by mechanism, nan where there is none. layers: from the mudline down."""
     found = {
         name: np.array([of(skirt, layers, float(h)) for h in depth])
         for name, of in ((REVERSE_BEARING, reverse_bearing), (LIFT, lift))

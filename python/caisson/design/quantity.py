@@ -29,8 +29,7 @@ def plain(unit: str) -> str:
 
 
 def factor_of(text: str, word: str, unit: str) -> float:
-    """Return what a unit multiplies a number with that is wanted in another. Raises
-    ValueError."""
+    """Return the factor from one unit to another. Raises ValueError."""
     found = UNITS.get(unit, {}).get(plain(word))
     if found is None:
         known = ", ".join(UNITS.get(unit, {})) or "none"
@@ -39,8 +38,7 @@ def factor_of(text: str, word: str, unit: str) -> float:
 
 
 def value_of(text: str, unit: str) -> float:
-    """Return a number in this unit; the text may have another one. Raises ValueError
-    with what is wrong."""
+    """Return a number in this unit, whatever its own. Raises ValueError."""
     if re.match(r"[+-]?\d*,\d", text.strip()):
         point = text.strip().replace(",", ".", 1)
         raise ValueError(f"{text!r} has a decimal comma; write {point}")
@@ -52,8 +50,7 @@ def value_of(text: str, unit: str) -> float:
 
 
 def parts_of(text: str) -> list[str]:
-    """Return the parts of a text between commas; those within parentheses, as in
-    min(5, d), divide nothing."""
+    """Return the parts between commas, of which those in parentheses are none."""
     parts, depth = [""], 0
     for letter in text:
         depth += (letter == "(") - (letter == ")")
@@ -65,8 +62,7 @@ def parts_of(text: str) -> list[str]:
 
 
 def refuse_tangent(text: str) -> None:
-    """Refuse an angle of friction without a unit that is so small that it may be the
-    tangent. Raises ValueError with what to write."""
+    """Refuse an angle of friction that may be a tangent. Raises ValueError."""
     if re.fullmatch(NUMBER, text) and 0 < (value := float(text)) < LEAST_ANGLE:
         angle = math.degrees(math.atan(value))
         raise ValueError(

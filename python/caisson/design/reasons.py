@@ -25,8 +25,7 @@ def text_of(value: float) -> str:
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:
-    """Return computed over method, from that of the upper to that of the lower case;
-    an end is open where the method has 0 or no answer."""
+    """Return computed over method in words; an end without an answer is open."""
     if not computed > 0:
         return ""
     least = computed / high if math.isfinite(high) and high > 0 else None
@@ -43,8 +42,7 @@ def ratio_in_words(computed: float, low: float, high: float) -> str:
 
 
 def is_beyond(computed: float, low: float, high: float) -> bool:
-    """Return whether computed over method is beyond LIKE in both cases. A method may
-    have 0 (no suction is needed), or nan in its upper case (none suffices)."""
+    """Return whether computed over method is beyond LIKE in both cases."""
     if not computed > 0 or math.isnan(low):
         return False
     most = computed / low if low > 0 else math.inf
@@ -64,8 +62,7 @@ def head(h: float, ends: tuple[float, float, float], what: str, name: str) -> st
 
 
 class Compared(NamedTuple):
-    """A run beside Houlsby & Byrne at one depth; the method's forces are those under
-    the suction of the run."""
+    """A run beside Houlsby & Byrne at one depth, both under the suction of the run."""
 
     h: float  # m
     suction: float  # of the run (Pa), 0 where it is jacked
@@ -116,15 +113,14 @@ def state_of_walls(found: Compared) -> str:
     k, k0 = found.k_tan_delta, found.undisturbed
     if not (math.isfinite(k) and k0 > 0):
         return ""
-    name = "K tan \N{GREEK SMALL LETTER DELTA}"
     if k > RAISED * k0:
         return (
-            f"; the sand that the wall has pushed aside has raised {name} outside from"
+            f"; the sand that the wall has pushed aside has raised {K_TAN} outside from"
             f" {k0:.2f} in undisturbed ground to {k:.2f}"
         )
     return (
-        f"; the walls do not grip yet, and {name} outside is {k:.2f}, where undisturbed"
-        f" ground has {k0:.2f}"
+        f"; the walls do not grip yet, and {K_TAN} outside is {k:.2f}, where"
+        f" undisturbed ground has {k0:.2f}"
     )
 
 
@@ -146,8 +142,7 @@ def of_houlsby_byrne(found: Compared) -> str:
 
 
 def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
-    """Return why a run is not at the bound of Houlsby & Byrne; what: force or suction.
-    Nothing where it is."""
+    """Return why a run is not at the bound of Houlsby & Byrne; nothing where it is."""
     if not is_beyond(computed, bound, bound):
         return ""
     name = f"undisturbed ground (K0 {K_TAN[2:]})"
@@ -170,8 +165,7 @@ ASSUMED_CONE = (
 
 
 class ByCone(NamedTuple):
-    """A run beside a method from a cone at one depth; with suction the method's forces
-    are those under the suction of the run."""
+    """A run beside a method from a cone at one depth, both under the same suction."""
 
     name: str
     h: float  # m
@@ -184,8 +178,7 @@ class ByCone(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """Horizontal over vertical stress at rest on the walls of a run, means over them,
-    and its ends in the layers that the skirt reaches."""
+    """Means of horizontal over vertical stress on the walls of a run, and its ends."""
 
     inner: float
     outer: float
@@ -215,8 +208,7 @@ def cause_by_cone(found: ByCone) -> str:
 
 
 def of_cause(cause: str, h: float, walls: Walls | None) -> str:
-    """Return why a part is not like in methods from a cone, once for all of them;
-    nothing where its cause says all."""
+    """Return the sentence on a cause, once for all methods; nothing if it says all."""
     if cause == AT_TIP:
         return "The methods give the tip a fixed share of the cone resistance."
     if cause != AT_WALLS:

@@ -16,15 +16,11 @@ the critical suction the sand inside loses its weight, or water breaks through i
 All fits are functions of h / D, the embedment of the tip over the diameter; here
 D is the outer one. SI units; unit weights are effective ones.
 """
-from collections.abc import Callable
 from math import atan, exp, pi
 
 
 def pressure_factor(slenderness: float, permeability_ratio: float = 1.0) -> float:
-    """Return a, the pressure at the tip over the suction.
-
-    slenderness: h / D; permeability_ratio: of the sand inside to that outside.
-    """
+    """Return a; slenderness: h / D, permeability_ratio: inside over outside."""
     a1 = 0.45 - 0.36 * (1 - exp(-slenderness / 0.48))
     return a1 * permeability_ratio / (1 - a1 + a1 * permeability_ratio)
 
@@ -51,12 +47,3 @@ def ibsen_thilsted(unit_weight: float, h: float, diameter: float) -> float:
 def feld(unit_weight: float, h: float, diameter: float) -> float:
     """Return the critical suction (Pa)."""
     return unit_weight * diameter * 1.32 * (h / diameter) ** 0.75
-
-
-# method: critical suction (Pa) from unit weight (N/m3), h (m) and diameter (m)
-CRITICAL_SUCTIONS: dict[str, Callable[[float, float, float], float]] = {
-    "Houlsby & Byrne (2005)": houlsby_byrne,
-    "Senders & Randolph (2009)": senders_randolph,
-    "Ibsen & Thilsted (2011)": ibsen_thilsted,
-    "Feld (2001)": feld,
-}

@@ -19,7 +19,7 @@ quote them, and have not been checked against it.
 
 What suction takes from these forces: suction_installation.
 """
-from math import sqrt
+from math import radians, sqrt, tan
 
 from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
 
@@ -28,10 +28,10 @@ TIP = 0.2  # k_p
 WALL = {"low": 0.012, "high": 0.03 / sqrt(2)}  # C
 
 
-def wall_coefficient(skirt: Skirt, case: str, tan_delta: float) -> float:
+def wall_coefficient(skirt: Skirt, case: str, angle: float) -> float:
     """Return k_f of a wall."""
     area_ratio = 1 - (skirt.inner_diameter / skirt.outer_diameter) ** 2
-    return WALL[case] * area_ratio**0.3 * tan_delta
+    return WALL[case] * area_ratio**0.3 * tan(radians(angle))
 
 
 def method(skirt: Skirt, profile: Profile) -> ConeMethod:
@@ -39,8 +39,8 @@ def method(skirt: Skirt, profile: Profile) -> ConeMethod:
     k = {
         case: Coefficients(
             TIP,
-            wall_coefficient(skirt, case, skirt.tan_inner),
-            wall_coefficient(skirt, case, skirt.tan_outer),
+            wall_coefficient(skirt, case, skirt.inner_friction_angle),
+            wall_coefficient(skirt, case, skirt.outer_friction_angle),
         )
         for case in CASES
     }

@@ -51,9 +51,9 @@ class Wall(NamedTuple):
     diameter: float
     thickness: float
     length: float
-    yield_strength: float = 355e6
-    youngs_modulus: float = 210e9
-    fixity: float = 0.5
+    yield_strength: float
+    youngs_modulus: float
+    fixity: float
     rings: float = inf
 
     @property
@@ -92,11 +92,6 @@ def elastic_strengths(wall: Wall, length: float) -> tuple[float, float]:
     return axial, strength(4.0, 1.04 * sqrt(z), 0.6)
 
 
-def material_factor(slenderness: float) -> float:
-    """Return gamma_M at a reduced slenderness."""
-    return float(np.interp(slenderness, [0.5, 1.0], [1.15, 1.45]))
-
-
 def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> float:
     """Return the equivalent stress over the design strength of a part of this length
     (m), under a pressure from outside (Pa) and an axial force of compression (N)."""
@@ -108,7 +103,8 @@ def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> flo
     elastic_axial, elastic_hoop = elastic_strengths(wall, length)
     share = max(along, 0.0) / elastic_axial + max(hoop, 0.0) / elastic_hoop
     slenderness = sqrt(yields / stress * share)
-    strength = yields / sqrt(1 + slenderness**4) / material_factor(slenderness)
+    material_factor = float(np.interp(slenderness, [0.5, 1.0], [1.15, 1.45]))
+    strength = yields / sqrt(1 + slenderness**4) / material_factor
     return stress / strength
 
 
@@ -153,8 +149,7 @@ def net_pressure(walls: Table) -> np.ndarray:
 
 def pressures_of(run: Results, wall: Wall) -> Table:
     """Return the pressure from outside along the wall at the frames of a run with
-    suction, from the lid down to the tip: columns [n], whose names have the units;
-    empty without such frames."""
+    suction, from lid to tip, as columns [n]; empty without such frames."""
     walls, history = run.walls, run.history
     if "suction_Pa" not in history or not {
         f"{side}_normal_stress_Pa" for side in SIDES
@@ -178,8 +173,7 @@ def pressures_of(run: Results, wall: Wall) -> Table:
 
 
 def weighted_mean(x: np.ndarray, values: np.ndarray, length: float) -> float:
-    """Return the mean of values [n] at places x [n] (m) from 0 to a length (m),
-    weighted with the square of a half wave."""
+    """Return the mean of values [n] at x [n] (m), weighted by a half wave squared."""
     at = np.linspace(0, length, 401)
     weights = np.sin(pi * at / length) ** 2
     return float(weights @ np.interp(at, x, values) / weights.sum())

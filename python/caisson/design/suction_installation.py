@@ -37,12 +37,14 @@ from caisson.design.method import Forces
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
 
-def bisect(is_beyond: Callable[[float], bool], low: float, high: float) -> float:
-    """Return where is_beyond turns from False, at low, to True, at high."""
-    for _ in range(100):
+def bisect(
+    is_beyond: Callable[[float], bool], low: float, high: float, rounds: int = 100
+) -> tuple[float, float]:
+    """Return the ends between which is_beyond turns from False, at low, to True."""
+    for _ in range(rounds):
         middle = (low + high) / 2
         low, high = (low, middle) if is_beyond(middle) else (middle, high)
-    return high
+    return low, high
 
 
 def plug_area(caisson: Caisson) -> float:
@@ -53,16 +55,14 @@ def plug_area(caisson: Caisson) -> float:
 def suction_without_flow(
     resistance: np.ndarray, weight: float, area: float
 ) -> np.ndarray:
-    """Return the suction that bears what the weight does not, [n] (Pa), where no water
-    flows: (R - V') / A_i, at least 0. resistance: [n] (N)."""
+    """Return the suction (R - V') / A_i >= 0 [n] (Pa) of resistances [n] (N)."""
     return np.maximum(resistance - weight, 0.0) / area
 
 
 def rest_without_flow(
     depth: np.ndarray, resistance: np.ndarray, weight: float
 ) -> float:
-    """Return the embedment at which a resistance [n] at depths [n] first bears the
-    weight; nan where it does not."""
+    """Return the embedment (m) at which a resistance [n] bears the weight, or nan."""
     stands = np.flatnonzero(resistance >= weight)
     if not len(stands):
         return nan
@@ -73,12 +73,10 @@ def rest_without_flow(
 def self_weight_penetration(
     caisson: Caisson, weight: float, enhanced: bool, deepest: float
 ) -> float:
-    """Return the embedment at which the caisson first stands without suction.
+    """Return the embedment (m) at which the caisson first stands without suction.
 
-    weight: effective, V'; deepest: length of the skirt. Raises ValueError where
-    the caisson sinks in deeper than this. The resistance grows with depth inside a
-    layer, but may fall from layer to layer.
-    """
+    weight: effective, V'; deepest: of the skirt. Raises ValueError where it sinks in
+    deeper."""
 
     def stands(h: float) -> bool:
         return caisson.resistance(h, enhanced) >= weight
@@ -89,7 +87,7 @@ def self_weight_penetration(
     for layer in caisson.layers[1:]:
         bottom = min(layer.top, deepest)
         if bottom > top and stands(bottom):
-            return bisect(stands, top, bottom)
+            return bisect(stands, top, bottom)[1]
         top = max(top, bottom)
     if not stands(deepest):
         raise ValueError(
@@ -98,7 +96,7 @@ def self_weight_penetration(
             f" {caisson.resistance(deepest, enhanced):g} N:"
             " no suction is needed down to this depth"
         )
-    return bisect(stands, top, deepest)
+    return bisect(stands, top, deepest)[1]
 
 
 def seepage(
@@ -112,8 +110,7 @@ def seepage(
 def piping_suction(
     caisson: Caisson, h: float, permeability_ratio: float = 1.0
 ) -> float:
-    """Return the suction at which a layer inside has lost its weight, beyond which
-    the equations of Houlsby and Byrne do not hold."""
+    """Return the suction (Pa) at which a layer inside has lost its weight."""
     lightest = min((layer.unit_weight for layer, _ in caisson.pieces(h)), default=0.0)
     return houlsby_byrne(lightest, h, caisson.outer_diameter, permeability_ratio)
 
@@ -161,11 +158,9 @@ def critical_suction(caisson: Caisson, h: float) -> float:
 def relieved_suction(
     jacking: Forces, weight: float, area: float, critical: float
 ) -> float:
-    """Return the suction by Senders and Randolph that moves the tip on.
-
-    jacking: the forces without suction; area: that suction acts on (m2); critical:
-    s_cr. It is 0 where the weight suffices, and nan where no suction up to s_cr does.
-    """
+    """Return the suction by Senders and Randolph that moves the tip on: 0 where the
+    weight suffices, nan where no suction up to s_cr (critical) does. area: of the plug
+    (m2)."""
     missing = jacking.total - weight
     if missing <= 0:
         return 0.0

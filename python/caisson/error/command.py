@@ -36,10 +36,7 @@ SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
 CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
-QUIET = {
-    "Output/Frame interval": "never",
-    "Output/Frame penetrations": "",
-}
+QUIET = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 # runs with other numerics on the coarsest mesh, and their cost over one without
 INERTIA, STEP, POINTS, SIDES = "inertia", "time step", "points", "boundaries"
 COST = {INERTIA: 2.0, STEP: 2.0, POINTS: 1.8, SIDES: 1.5}
@@ -52,8 +49,7 @@ TOO_SHORT = (
 
 
 def seconds_of(text: str) -> float:
-    """Return a duration such as 90s, 30min or 2h in seconds. Raises
-    ArgumentTypeError."""
+    """Return a duration such as 90s or 30min in seconds. Raises ArgumentTypeError."""
     found = re.fullmatch(r"(\d+(?:\.\d*)?) *(s|min|h)", text.strip())
     if found is None or not float(found[1]):
         raise argparse.ArgumentTypeError(
@@ -87,8 +83,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def refinements(cells: int, even: bool) -> list[float]:
-    """Return the numbers for Grid/Refinement of a body with so many cells across its
-    wall, which must be even for a triangular tip; 0: a body without a wall."""
+    """Return Grid/Refinement of bodies with so many cells across (0: none)."""
     if not cells:
         return PLAIN
     wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
@@ -98,9 +93,8 @@ def refinements(cells: int, even: bool) -> list[float]:
 def chosen_meshes(
     known: list[float], seconds: float, budget: float, changes: float
 ) -> list[float]:
-    """Return the refinements that the budget (s) allows, where a run of the scene takes
-    some seconds: a run costs the cube of its refinement; changes: the cost of those
-    with other numerics over that of the coarsest."""
+    """Return the refinements that the budget (s) allows, by the seconds of the scene.
+    changes: cost of runs with other numerics over that of the coarsest."""
     chosen = [r for r in known if r <= 1]
     left = budget - seconds * (sum(r**3 for r in chosen) + changes * min(chosen) ** 3)
     for r in (r for r in known if r > 1):
@@ -112,8 +106,7 @@ def chosen_meshes(
 
 
 def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float]]:
-    """Return the runs with other numerics: what they change in the entries of the
-    scene, and the factor that extrapolates to the limit."""
+    """Return what runs with other numerics change, and factors to the limit."""
     found: dict[str, tuple[dict[str, Any], float]] = {}
     tolerance = entries["Time/Inertia tolerance"]
     if tolerance != "none":
@@ -178,8 +171,7 @@ class Plan:
             )
 
     def choose(self, known: list[float], numbers: Sequence[int]) -> None:
-        """Choose the first of these numbers of windows that leaves a part of the budget
-        for a second mesh, the last one where none does, and the meshes."""
+        """Choose windows and meshes that the budget allows, the most windows first."""
         for number in numbers:
             self.windows = windows_of(self.entries, number)
             self.seconds = self.size.seconds * self.share_of_way()
@@ -198,8 +190,7 @@ class Plan:
 
     @property
     def cost_of_changes(self) -> float:
-        """The cost of all runs with other numerics over that of one without. Windows
-        have them at one depth, and there the run without once more."""
+        """The cost of all runs with other numerics over that of one without."""
         if not self.windows:
             return COST_OF_CHANGES
         return (1 + COST_OF_CHANGES) / len(self.windows)
@@ -225,19 +216,9 @@ class Plan:
         if self.output.resolve() == self.scene:
             raise StudyError(f"{self.output} is the scene. Choose another --output")
 
-    def check_free(self, runs: list[StudyRun]) -> None:
-        """Raise StudyError where the file is there and runs are missing, so that it
-        will be another one."""
-        if self.output.exists() and not all(run.run.is_complete() for run in runs):
-            raise StudyError(
-                f"{self.output} exists. Choose --output, or replace it by --overwrite"
-            )
-
     def size_of_scene(self) -> Size:
-        """Return the points of the scene and how long it takes on one core: as an
-        earlier call has found it, so that the same budget allows the same runs, or as
-        the program says. It does not where its first steps took no time that it could
-        measure."""
+        """Return points and duration of the scene, as an earlier call found it, so that
+        a budget allows the same runs, or as the program says."""
         run = self.run("default", {}).run
         try:
             found = json.loads((self.results / SIZE).read_text("utf-8"))
@@ -306,9 +287,8 @@ class Plan:
         return True
 
     def mesh(self, r: float) -> dict[str, Any]:
-        """Return the entries of a mesh, none of that of the scene. Cells that are
-        halved at the tip are halved less often on a coarser one: lines of the mesh
-        cannot be wider apart than the wall."""
+        """Return the entries of a mesh. Cells at the tip are halved less often on a
+        coarser one, as lines of the mesh cannot be wider apart than the wall."""
         if r == 1:
             return {}
         found: dict[str, Any] = {
@@ -363,9 +343,8 @@ class Plan:
 
 
 def set_depths(study: Study, windows: Sequence[Window]) -> None:
-    """Set the depths of the bar: those of the windows, or all that the run of the scene
-    passes on its way down, without half a window at both ends and without the first
-    0.3 m."""
+    """Set the depths of the bar: those of the windows, or of the way down without half
+    a window at both ends and the first 0.3 m."""
     if windows:
         first, second, last = windows[0].depth, windows[1].depth, windows[-1].depth
         study.keys["depths"] = [first, last, second - first]
@@ -378,8 +357,7 @@ def set_depths(study: Study, windows: Sequence[Window]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the report finds the bar, what it does not hold, and what the next
-    finer mesh would cost."""
+    """Print how the report finds the bar, its gaps, and the cost of a finer mesh."""
     suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
     if plan.windows and suction.any():
         print(
@@ -415,8 +393,11 @@ def main(arguments: argparse.Namespace) -> int:
         print(f"This is more than the budget, {duration(plan.budget)}.")
     if arguments.list:
         return 0
-    if not arguments.overwrite:
-        plan.check_free(study.runs)
+    is_complete = all(run.run.is_complete() for run in study.runs)
+    if not arguments.overwrite and plan.output.exists() and not is_complete:
+        raise StudyError(
+            f"{plan.output} exists. Choose --output, or replace it by --overwrite"
+        )
     plan.execute(study.runs, arguments.again)
     set_depths(study, plan.windows)
     with disk.all_or_none(arguments.overwrite):

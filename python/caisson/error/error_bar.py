@@ -29,18 +29,17 @@ the error bar is the root of the sum of the squares of all terms; that of a forc
 least 1 %. One run must be called "default".
 """
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from caisson import curves, table
+from caisson import curves, disk, table
 from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
+from caisson.error_bounds import FORCES, SUCTION, Quantity
 from caisson.study import Options, Study, StudyError, StudyRun
-from caisson import disk
 from caisson.error.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"
@@ -52,66 +51,24 @@ SIDES = ("below", "above")
 MOST_SHOWN = 6  # depths in a table, about
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A column of history.csv that has an error bar.
-
-    name and unit make the names of columns in the file, unit being that of its error;
-    scale and digits are those of the printed tables, for values in shown_unit.
-    """
-
-    name: str
-    column: str
-    is_relative: bool
-    unit: str
-    shown_unit: str
-    scale: float
-    digits: int
-
-    def named(self, *parts: str) -> str:
-        """Return the name of a column of the file."""
-        return "_".join(filter(None, [self.name, *parts, self.unit]))
-
-    def text(self, value: float) -> str:
-        """Return a value for a printed table."""
-        return f"{value * self.scale:.{self.digits}f}"
-
-
-FORCES = [
-    Quantity(name, column, True, "", "kN", 1e-3, 0)
-    for name, column in {
-        "tip": "tip_force_N",
-        "inner": "inner_friction_N",
-        "outer": "outer_friction_N",
-        "total": "total_force_N",
-    }.items()
-]
-SUCTION = [
-    Quantity("required_suction", "required_suction_Pa", False, "Pa", "kPa", 1e-3, 2),
-    Quantity("exit_gradient_axis", "exit_gradient_axis", False, "", "", 1, 3),
-    Quantity("plug_heave", "plug_heave_m", False, "m", "mm", 1e3, 1),
-]
-QUANTITIES = {quantity.name: quantity for quantity in FORCES + SUCTION}
-
 # by name of the quantity: how far the truth may lie below and above, [2, n_depths]
 Errors = dict[str, np.ndarray]
 
 
 def quantities_of(history: Table) -> list[Quantity]:
-    """Return what a run with this history has: forces that are not zero throughout, as
-    friction without a wall, and suction if it acts."""
-    return [q for q in FORCES + SUCTION if np.any(history.get(q.column, 0))]
+    """Return what a history has: forces that are not zero, and suction."""
+    return [q for q in FORCES + SUCTION if np.any(history.get(q.column(), 0))]
 
 
 def values_of(run: StudyRun, quantity: Quantity, depths: np.ndarray) -> np.ndarray:
     """Return the means of a quantity about depths [n] (m) in a run: [n]."""
-    return curves.forces_at(run.results.history, quantity.column, depths)
+    return curves.forces_at(run.results.history, quantity.column(), depths)
 
 
 def refinement_of(run: StudyRun) -> float:
     """Return the Grid/Refinement in effect in a finished run."""
-    entries = {**run.results.summary.get("entries", {}), **run.run.entries}
-    return float(entries.get("Grid/Refinement", 1))
+    given = run.run.entries.get("Grid/Refinement")
+    return float(given or run.results.entry("Grid/Refinement") or 1)
 
 
 def relative(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
@@ -122,8 +79,7 @@ def relative(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
 def mesh_error_of(
     study: Study, names: Sequence[str], quantity: Quantity, depths: np.ndarray
 ) -> MeshError:
-    """Return the error of the run called default, from these runs on similar meshes;
-    nan at the depths [n] that not all of them reach."""
+    """Return the error of the run default by similar meshes, nan beyond their ends."""
     runs = [study.run(name) for name in names]
     sizes = [1 / refinement_of(run) for run in runs]
     values = np.array([values_of(run, quantity, depths) for run in runs])
@@ -164,8 +120,7 @@ def where_it_counts(term: dict[str, Any], depths: np.ndarray) -> np.ndarray:
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
-    """Return the errors of all quantities by one term, 0 where it does not count.
-    Raises StudyError where a run does not reach that far."""
+    """Return errors of all quantities by a term, 0 elsewhere. Raises StudyError."""
     counts = where_it_counts(term, depths)
     errors = {}
     for quantity in quantities_of(study.run("default").results.history):
@@ -175,8 +130,8 @@ def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Error
                 f"the error {term['name']!r} counts to {depths[counts][-1]:.4g} m, and"
                 " one of its runs ends before; set its depths"
             )
-        errors[quantity.name] = np.zeros((2, len(depths)))
-        errors[quantity.name][:, counts] = sides
+        errors[quantity.bar] = np.zeros((2, len(depths)))
+        errors[quantity.bar][:, counts] = sides
     return errors
 
 
@@ -186,23 +141,21 @@ def combined(terms: Sequence[Errors]) -> Errors:
         name: np.sqrt(np.sum([term[name] ** 2 for term in terms], axis=0))
         for name in terms[0]
     }
-    for quantity in (q for q in FORCES if q.name in bars):
-        bars[quantity.name] = np.maximum(bars[quantity.name], LEAST)
+    for quantity in (q for q in FORCES if q.bar in bars):
+        bars[quantity.bar] = np.maximum(bars[quantity.bar], LEAST)
     return bars
 
 
 def shift_to_limit(
     study: Study, depths: np.ndarray, quantity: Quantity
 ) -> dict[str, np.ndarray]:
-    """Return the column with what leads from the default mesh to the limit of all
-    meshes, if there are such runs: relative for a force, and 0 where not all runs reach
-    that far."""
+    """Return the column that leads to the limit of all meshes, if there are some."""
     for names in (term["meshes"] for term in study.keys["errors"] if "meshes" in term):
         values = values_of(study.run("default"), quantity, depths)
         shift = mesh_error_of(study, names, quantity, depths).limit - values
         if quantity.is_relative:
             shift = relative(shift, values)
-        return {quantity.named("shift"): np.nan_to_num(shift)}
+        return {quantity.bar_column("shift"): np.nan_to_num(shift)}
     return {}
 
 
@@ -215,19 +168,19 @@ def file_columns(
     names = [term["name"].replace(" ", "_") for term in study.keys["errors"]]
     columns = {"penetration_m": [f"{depth:.2f}" for depth in depths]}
     for group in (FORCES, SUCTION):
-        present = [q for q in group if q.name in bars]
+        present = [q for q in group if q.bar in bars]
         text = ".5f" if group is FORCES else ".5g"
         values = {
-            q.column: curves.forces_at(history, q.column, depths)
+            q.column(): curves.forces_at(history, q.column(), depths)
             for q in present
             if not q.is_relative
         }
         for q in present:
-            values |= {q.named(s): bars[q.name][i] for i, s in enumerate(SIDES)}
+            values |= {q.bar_column(s): bars[q.bar][i] for i, s in enumerate(SIDES)}
             values |= shift_to_limit(study, depths, q)
         for name, term in zip(names, terms):
             for i, side in enumerate(SIDES):
-                values |= {q.named(name, side): term[q.name][i] for q in present}
+                values |= {q.bar_column(name, side): term[q.bar][i] for q in present}
         columns |= {n: [f"{value:{text}}" for value in v] for n, v in values.items()}
     return columns
 
@@ -262,12 +215,12 @@ def print_table(
     unit = f" ({q.shown_unit})" if q.shown_unit else ""
     rows = []
     for run in study.runs:
-        values = curves.forces_at(run.results.history, q.column, depths)
+        values = curves.forces_at(run.results.history, q.column(), depths)
         rows.append([run.name, *map(q.text, values), minutes(run)])
-    print(table.markdown([f"{q.column}{unit}", *heads, "time"], rows) + "\n")
+    print(table.markdown([f"{q.column()}{unit}", *heads, "time"], rows) + "\n")
     rows = []
     for name, errors in named:
-        below, above = errors[q.name]
+        below, above = errors[q.bar]
         rows.append([name, *(in_words(q, *sides) for sides in zip(below, above))])
     print(table.markdown(["error", *heads], rows) + "\n")
 
@@ -286,9 +239,7 @@ def in_words(quantity: Quantity, below: float, above: float) -> str:
 def share_in_bar(
     study: Study, finest: StudyRun, names: Sequence[str], depths: np.ndarray
 ) -> dict[str, float]:
-    """Return the share of the depths where a run on the finest mesh lies in the error
-    bar that is made from the other meshes, by quantity; nothing where these are less
-    than two, or without that of the scene."""
+    """Return the share of depths where the finest mesh lies in the bar of others."""
     others = [name for name in names if name != finest.name]
     if len(others) < 2 or "default" not in others:
         return {}
@@ -298,19 +249,18 @@ def share_in_bar(
     ]
     bars = combined([term_errors(term, study, depths) for term in terms])
     shares = {}
-    for q in (q for q in FORCES + SUCTION if q.name in bars):
+    for q in (q for q in FORCES + SUCTION if q.bar in bars):
         value = values_of(study.run("default"), q, depths)
         rise = values_of(finest, q, depths) - value
         if q.is_relative:
             rise = relative(rise, value)
-        below, above = bars[q.name]
-        shares[q.name] = float(np.mean((rise >= -below) & (rise <= above)))
+        below, above = bars[q.bar]
+        shares[q.bar] = float(np.mean((rise >= -below) & (rise <= above)))
     return shares
 
 
 def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None:
-    """Print what the similar meshes say of themselves: their order, and the finest
-    one as the test of a bar that is made without it."""
+    """Print the order of the similar meshes, and the finest one as a test."""
     runs = [study.run(name) for name in names]
     if len(runs) < 3:
         print("Two meshes: nothing confirms the error by the mesh.\n")
@@ -322,8 +272,8 @@ def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None
         error = mesh_error_of(study, names, q, depths)
         order = f"{np.mean(error.order):.1f}"
         failed = f"{100 * np.mean(error.failed):.0f} %"
-        held = f"{100 * shares[q.name]:.0f} %" if q.name in shares else "-"
-        rows.append([q.name, order, failed, held])
+        held = f"{100 * shares[q.bar]:.0f} %" if q.bar in shares else "-"
+        rows.append([q.bar, order, failed, held])
     heads = ["meshes", "order", "not of order 1", f"{finest.name} in bar of the others"]
     print(table.markdown(heads, rows) + "\n")
     print(
@@ -340,9 +290,9 @@ def print_tables(
 ) -> None:
     """Print all quantities of all runs, and the errors of all terms, at some depths."""
     names = [*(term["name"] for term in study.keys["errors"]), "all"]
-    for q in (q for q in FORCES + SUCTION if q.name in bars):
+    for q in (q for q in FORCES + SUCTION if q.bar in bars):
         at = chosen_depths(depths)
-        chosen = [{q.name: errors[q.name][:, at]} for errors in [*terms, bars]]
+        chosen = [{q.bar: errors[q.bar][:, at]} for errors in [*terms, bars]]
         print_table(study, depths[at], list(zip(names, chosen)), q)
     for term in study.keys["errors"]:
         if "meshes" in term:
@@ -366,8 +316,7 @@ def depths_of(study: Study) -> np.ndarray:
 
 
 def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
-    """Write the file of each study and print its tables. Raises StudyError where a
-    run is missing."""
+    """Write the file of each study and print its tables. Raises StudyError."""
     for study in studies:
         depths = depths_of(study)
         try:

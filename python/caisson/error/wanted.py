@@ -16,25 +16,16 @@ import numpy as np
 from caisson.paths import PROGRAM
 from caisson.progress import duration
 from caisson.study import Options, Study, StudyError, StudyRun
-from caisson.error import error_bar
-from caisson.error.command import (
-    INERTIA,
-    POINTS,
-    SIDES,
-    STEP,
-    Plan,
-    in_units,
-    set_depths,
-)
+from caisson.error import command, error_bar
 
 BUDGET = 7200.0  # s of all runs on one core, if none is given
 SHARE = 90  # percent of the depths at which the error must be small enough
 ALL, NOT_MESH = "all", "all but the mesh"
 REMEDIES = {
-    INERTIA: "a quarter of Time/Inertia tolerance, or of Time/Mass scaling",
-    STEP: "half of Time/Courant number",
-    POINTS: "one more of Material points/Per direction in path, near and far",
-    SIDES: "Grid/Outer radius and Grid/Bottom 1.5 times as far away",
+    command.INERTIA: "a quarter of Time/Inertia tolerance, or of Time/Mass scaling",
+    command.STEP: "half of Time/Courant number",
+    command.POINTS: "one more of Material points/Per direction in path, near and far",
+    command.SIDES: "Grid/Outer radius and Grid/Bottom 1.5 times as far away",
 }
 
 
@@ -56,7 +47,7 @@ class Search:
         """Ask the program for the scene. directory: of the runs. Raises RunError,
         StudyError and OSError."""
         directory.parent.mkdir(parents=True, exist_ok=True)
-        self.plan = Plan(
+        self.plan = command.Plan(
             argparse.Namespace(
                 scene=scene,
                 program=PROGRAM,
@@ -103,7 +94,7 @@ class Search:
         ]
         keys = {"errors": self.errors, "output": str(self.bar_file)}
         study = Study(plan.scene.stem, plan.scene.stem, plan.scene, runs, keys)
-        set_depths(study, plan.windows)
+        command.set_depths(study, plan.windows)
         return study
 
     @property
@@ -112,9 +103,8 @@ class Search:
         return (self.plan.results / "error_bar.csv").resolve()
 
     def errors_by_term(self) -> dict[str, float]:
-        """Return the errors of the total force on the finest mesh so far that are not
-        exceeded at nine tenths of the depths: by term, of all terms, and of all but the
-        mesh."""
+        """Return the errors of the total force on the finest mesh that nine tenths of
+        the depths do not exceed: by term, of all, and of all but the mesh."""
         study = self.study()
         depths = error_bar.depths_of(study)
         terms = [error_bar.term_errors(t, study, depths) for t in self.errors]
@@ -147,15 +137,14 @@ def check_mesh_matters(errors: dict[str, float], wanted: float) -> None:
 def mesh_for(
     scene: Path, wanted: float, budget: float, directory: Path
 ) -> tuple[dict[str, Any], Path]:
-    """Return the entries of the mesh with which the error of a scene is at most the one
-    that is wanted, and its error bar. Prints the errors of the meshes, whose
-    runs go to the directory. Raises RunError and StudyError, also where the budget (s)
-    ends before."""
+    """Return the entries of the mesh with the error that is wanted, and its error bar;
+    print the errors of meshes, whose runs go to the directory. Raises RunError and
+    StudyError, also where the budget (s) ends."""
     search = Search(scene, budget, directory)
     reached = ""
     for r in search.plan.chosen:
         if search.left < (cost := search.cost(r)):
-            more = in_units(budget - search.left + cost)
+            more = command.in_units(budget - search.left + cost)
             raise StudyError(
                 f"the error bar needs {more} on one core; the budget is"
                 f" {duration(budget)}{reached}. Set --budget {more}: runs that are"

@@ -32,7 +32,7 @@ from caisson.runner import (
     read_parameters,
     set_options,
 )
-from caisson.error.error_bar import SUCTION
+from caisson.error_bounds import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
 NUMBERS = 4, 3, 2  # of windows, the first as a rule
@@ -93,9 +93,8 @@ def share_of_tolerance(way: float, radius: float) -> float:
 
 
 def windows_of(scene: Entries, number: int) -> list[Window]:
-    """Return so many windows of a scene by its entries: none of a body without a wall
-    or with another way than one down to a depth at one speed, and of a way that is
-    short or hardly longer than they are."""
+    """Return so many windows of a scene: none of a body without a wall, of another way
+    than one down at one speed, and of a short way."""
     names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
     names += ["Rigid body/Initial penetration", "Time/End penetration"]
     try:
@@ -157,9 +156,8 @@ class WindowedRun(Run):
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run the windows that have no result, or all of them again where none is
-        missing, and write the history of the means; see Run. Raises RunError also where
-        a window does not reach its depth."""
+        """Run the missing windows, or all again where none is, and write the history of
+        the means; see Run. Raises RunError where a window ends early."""
         again = self.is_complete()
         (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []
@@ -184,9 +182,8 @@ class WindowedRun(Run):
         return Status.SUCCESS
 
     def write(self, results: Sequence[Results], of_scene: str) -> None:
-        """Write history.csv without the suction, in which each mean is constant about
-        its depth, and run.json with the fingerprint of the scene."""
-        absolute = {quantity.column for quantity in SUCTION}
+        """Write history.csv of the means, and run.json with the fingerprint."""
+        absolute = {quantity.column() for quantity in SUCTION}
         columns = [name for name in results[0].history if name not in absolute]
         means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
         centers = np.array([window.depth for window in self.windows])
@@ -208,8 +205,7 @@ class WindowedRun(Run):
 
 
 def fingerprint(scene: Path, entries: Entries, program: Path) -> str:
-    """Return the fingerprint of a scene, by which it knows its error bar. Raises
-    RunError."""
+    """Return the fingerprint of a scene, which its bar names. Raises RunError."""
     arguments = [str(scene), *set_options(entries), "--print-parameters"]
     return query(arguments, program).rpartition("# fingerprint: ")[2]
 

@@ -80,8 +80,7 @@ def on_boundary(state: State, mesh: Mesh) -> np.ndarray:
 
 
 def inward(mesh: Mesh, edges: np.ndarray) -> np.ndarray:
-    """Return the areas of edges as vectors into the soil, which is on their left:
-    [k, 2] (m2)."""
+    """Return the areas of edges as vectors into the soil on their left: [k, 2] (m2)."""
     first, last = mesh.nodes[edges[:, 0]], mesh.nodes[edges[:, 1]]
     (r, z), radius = (last - first).T, (first + last)[:, 0] / 2
     return 2 * np.pi * np.column_stack([-z * radius, r * radius])
@@ -109,8 +108,7 @@ def force_of_run(state: State, name: str) -> float | None:
 
 
 def spread_of(force: float, stress: np.ndarray) -> np.ndarray:
-    """Return how a vertical force is spread over nodes: like that of the stress there,
-    [n, 2], or like the normal one where most of that has another sign."""
+    """Return how a vertical force is spread over nodes, like the stress [n, 2]."""
     spread = np.maximum(-stress[:, 1] * np.sign(force), 0)
     if spread.sum() < LEAST_SHARE * abs(force):
         spread = abs(stress[:, 0])
@@ -145,7 +143,9 @@ def exported(state: State, mesh: Mesh) -> Exported:
         state=state,
         mesh=mesh,
         values=values,
-        unit_weight=state.weight_of_layers[values.layer],
+        unit_weight=np.array([layer.unit_weight for layer in state.layers])[
+            values.layer
+        ],
         applied=applied,
         held=is_held,
         wall=wall,

@@ -30,8 +30,7 @@ def sections(lines: list[str]) -> dict[str, list[str]]:
 def read_2(
     parts: dict[str, list[str]]
 ) -> tuple[dict[int, list[float]], list[list[int]]]:
-    """Return nodes by their tags, and [tags of group and surface, corners...] of cells,
-    of format 2.2."""
+    """Return nodes by tag, and [tags of group and surface, corners...] (format 2.2)."""
     nodes = {}
     for line in parts["Nodes"][1:]:
         tag, *x = line.split()
@@ -72,9 +71,8 @@ def read_4(
 
 
 def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
-    """Return the mesh of a text file of Gmsh, format 2.2 or 4.1, with all of its
-    triangles and quadrilaterals of first order, the surface of each [m], and the names
-    of its groups. Raises ResultsError."""
+    """Return the mesh of a text file of Gmsh, 2.2 or 4.1, in first order, the surface
+    of each cell [m], and the names of its groups. Raises ResultsError."""
     try:
         data = disk.read_bytes(path, ResultsError)
         version = data.split(b"$MeshFormat", 1)[1].split(maxsplit=2)[:2]
@@ -112,8 +110,7 @@ def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
 
 
 def read_gmsh(path: Path, state: State) -> Mesh:
-    """Return the mesh of a file for a state of the soil, without the cells in the wall.
-    Raises ResultsError."""
+    """Return the mesh of a file without the cells in the wall. Raises ResultsError."""
     mesh, surfaces, names = parsed(path)
     check_extent(mesh, state, path)
     kept = np.ones(len(mesh.cells), dtype=bool)
@@ -153,12 +150,8 @@ def check_extent(mesh: Mesh, state: State, path: Path) -> None:
 
 
 def in_wall(mesh: Mesh, surfaces: np.ndarray, wall: Wall) -> np.ndarray:
-    """Return which cells are the wall: [m].
-
-    They have their centers in it, or are of a surface of Gmsh of which more than half,
-    below the ground's surface, lies between the radii of the wall and above its tip: so
-    are the corners of a flat tip where that of the body has a bevel.
-    """
+    """Return which cells are the wall: [m], by their centers or as part of a surface of
+    Gmsh that is mostly there, as a flat tip for one with a bevel."""
     r, z = mesh.centers.T
     found = wall.contains(mesh.centers)
     around = (r > wall.inner) & (r < wall.outer) & (z > wall.tip)
@@ -183,8 +176,7 @@ def words_on(mesh: Mesh, kept: np.ndarray, names: dict[int, str]) -> str:
 
 
 def trimmed(mesh: Mesh, kept: np.ndarray, remark: str) -> Mesh:
-    """Return a mesh with the cells that are kept and their nodes only, and with all
-    cells counterclockwise."""
+    """Return a mesh with the kept cells and their nodes, all counterclockwise."""
     cells, area = mesh.cells[kept], mesh.areas[kept]
     turned = cells[:, [2, 1, 0, 3]]
     turned[cells[:, 2] == cells[:, 3]] = cells[cells[:, 2] == cells[:, 3]][

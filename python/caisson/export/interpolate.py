@@ -26,8 +26,7 @@ LINEAR = {"yield_stress_Pa", "vertical_yield_stress_Pa"}
 
 @dataclass
 class Neighbors:
-    """Points near some places: numbers and weights, [n, k]; a weight of 0 is no
-    neighbor. layer: that of the nearest point, [n]."""
+    """Points near places: numbers and weights [n, k] (0: none); layer: nearest [n]."""
 
     places: np.ndarray
     index: np.ndarray
@@ -36,8 +35,7 @@ class Neighbors:
 
 
 def hidden(places: np.ndarray, points: np.ndarray, wall: Wall) -> np.ndarray:
-    """Return whether the wall stands between places [n, 2] and points [n, k, 2]: the
-    line between them crosses the middle of the wall above the tip."""
+    """Return whether the wall stands between places [n, 2] and points [n, k, 2]."""
     r, z = places[:, np.newaxis, 0], places[:, np.newaxis, 1]
     across = (r - wall.middle) * (points[..., 0] - wall.middle) < 0
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -77,8 +75,7 @@ def neighbors(state: State, tree: cKDTree, places: np.ndarray, n: int) -> Neighb
 
 
 def is_poor(state: State, near: Neighbors) -> np.ndarray:
-    """Return whether the neighbors are almost on one line, or far to one side of the
-    place: [n]."""
+    """Return whether neighbors are almost on a line, or to one side: [n]."""
     step = state.position[near.index] - near.places[:, np.newaxis]
     weight = (near.weight / near.weight.sum(axis=1, keepdims=True))[..., np.newaxis]
     mean = (weight * step).sum(axis=1)
@@ -88,8 +85,7 @@ def is_poor(state: State, near: Neighbors) -> np.ndarray:
 
 
 def plane_weights(state: State, near: Neighbors) -> np.ndarray:
-    """Return what the value of each neighbor counts in the plane at the place:
-    [n, k], sum 1; of the mean where the points do not span a plane."""
+    """Return the weights of neighbors [n, k] in the plane, or mean, at places."""
     step = state.position[near.index] - near.places[:, np.newaxis]
     size = abs(step).max(axis=1, keepdims=True)
     basis = np.concatenate([np.ones((*step.shape[:2], 1)), step / size], axis=2)
@@ -104,8 +100,7 @@ def plane_weights(state: State, near: Neighbors) -> np.ndarray:
 
 
 def within(values: np.ndarray, near: np.ndarray) -> np.ndarray:
-    """Return values [n, m], not further beyond those of the neighbors [n, k, m] than
-    half of their range."""
+    """Return values [n, m], within 1.5 ranges of the neighbors [n, k, m]."""
     low, high = near.min(axis=1), near.max(axis=1)
     return np.clip(values, 1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
 
@@ -131,8 +126,7 @@ class Values:
 
 
 def mean_of(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Return the weighted mean of neighbors [n, k], without those that are not a
-    number."""
+    """Return the weighted mean of those of neighbors [n, k] that are numbers."""
     known = np.isfinite(values) & (weight > 0)
     total = np.where(known, weight, 0).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -57,8 +57,7 @@ class Mesh:
         return x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y
 
     def edges(self) -> np.ndarray:
-        """Return the edges that only one cell has: [k, 2], with the soil on their
-        left."""
+        """Return the edges of one cell only: [k, 2], the soil on their left."""
         pairs = np.stack([self.cells, np.roll(self.cells, -1, axis=1)], axis=2)
         pairs = pairs.reshape(-1, 2)
         pairs = pairs[pairs[:, 0] != pairs[:, 1]]
@@ -97,8 +96,7 @@ def steps(begin: float, end: float, spacing: float) -> np.ndarray:
 
 
 def surface_of(state: State, r: np.ndarray, spacing: float) -> np.ndarray:
-    """Return the height of the soil's surface at radii of one side of the wall (m):
-    that of the uppermost points, and what was above them at the start."""
+    """Return the height of the soil's surface at radii of one side of the wall (m)."""
     low, high = r.min(), r.max()
     inside = (state.position[:, 0] >= low) & (state.position[:, 0] <= high)
     size = np.sqrt(state.volume / (2 * np.pi * state.position[:, 0]))
@@ -151,8 +149,7 @@ def rising(shoulder: float, surface: np.ndarray, spacing: float) -> np.ndarray:
 
 
 def regular(state: State, window: Window) -> Mesh:
-    """Return the regular grid of a window. Above the tip its rows follow the surface of
-    the soil. Raises ResultsError where the window has no place."""
+    """Return the regular grid of a window. Raises ResultsError without a place."""
     wall, spacing = state.wall, window.spacing
     if wall is None:
         r = steps(0, window.radius, spacing)
@@ -187,8 +184,7 @@ def regular(state: State, window: Window) -> Mesh:
 
 
 def check_spacing(state: State, window: Window) -> None:
-    """Raise ResultsError where a regular grid has too many cells, or where its cells
-    are too large for the wall."""
+    """Raise ResultsError for too many cells, or cells too large for the wall."""
     spacing, wall = window.spacing, state.wall
     across, down = window.radius / spacing, window.depth / spacing
     if (across + 2) * (down + 2) > MOST_CELLS:
@@ -222,8 +218,7 @@ def length_of_edges(mesh: Mesh) -> np.ndarray:
 
 
 def with_sets(mesh: Mesh, wall: Wall | None) -> Mesh:
-    """Set the nodes on the sides, on the wall and on the surface. Raises ResultsError
-    where a wall is in the ground and not in the mesh."""
+    """Set the nodes of sides, wall and surface. Raises ResultsError without a wall."""
     r, z = mesh.nodes.T
     edge = np.zeros(len(r), dtype=bool)
     edge[mesh.edges()] = True

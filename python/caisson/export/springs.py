@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from caisson.loaded import LoadedRun
+from caisson.nature import GRAVITY, WATER_DENSITY
 from caisson.paths import short
 from caisson.results import ResultsError, Table
 from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus
@@ -38,7 +39,6 @@ SEGMENTS = 8  # of each wall
 SMALL = (1e-4, 1e-3, 1e-2)
 TOO_STIFF = 0.1  # by which waves that have not gone far may raise a stiffness
 STILL_GROWS = 0.02  # of the force at the end, by which the last tenth raises it
-GRAVITY, WATER_DENSITY = 9.81, 1000.0  # m/s2, kg/m3
 # the wall, its mean depth (m), its area (m2) and its stress over time [n] (Pa)
 Segment = tuple[str, float, float, np.ndarray]
 
@@ -96,8 +96,7 @@ class Springs:
 
     @property
     def needed_reach(self) -> float:
-        """The way of a wave (m) from which on the stiffness is right but for
-        TOO_STIFF."""
+        """The way of a wave (m) from which on the stiffness is right."""
         influence = 2.5 * self.depth * (1 - POISSON)
         radius = self.diameter / 2
         return radius * ((1 + influence / radius) ** (1 / (1 + TOO_STIFF)) - 1)
@@ -110,9 +109,8 @@ class Springs:
 
     @property
     def misfit(self) -> float:
-        """The largest difference between the resistance and springs that are hyperbolas
-        with the ultimate and the displacement at half of it, over the largest
-        resistance."""
+        """The largest difference of the resistance from hyperbolas with the same
+        ultimate and half, over the largest resistance."""
         z, together = self.displacement, np.zeros(len(self.displacement))
         for spring in self.springs:
             if spring.ultimate > 0:
@@ -122,15 +120,13 @@ class Springs:
 
     @property
     def growth(self) -> float:
-        """By what the last tenth of the motion raises the resistance, over that at the
-        end; of a hyperbola it is a tenth of what the end lacks of the ultimate."""
+        """By what the last tenth of the motion raises the resistance."""
         before = np.interp(0.9 * self.displacement[-1], self.displacement, self.force)
         end = float(self.force[-1])
         return 1 - float(before) / end if end > 0 else 0.0
 
     def stiffness(self, share: float) -> float:
-        """Return force over displacement at a share of the diameter (N/m), or nan
-        where the run ends before."""
+        """Return force over displacement at a share of the diameter (N/m), or nan."""
         at = share * self.diameter
         if at > self.displacement[-1]:
             return np.nan
@@ -138,8 +134,7 @@ class Springs:
 
 
 def last_motion(penetration: np.ndarray) -> tuple[int, int]:
-    """Return the row [n] at which the last motion in one direction begins, and the
-    direction: 1 down, -1 up. Raises ResultsError where there is none."""
+    """Return row and direction (1 or -1) of the last motion. Raises ResultsError."""
     steps = np.diff(penetration)
     moved = np.flatnonzero(abs(steps) > SAME)
     if not len(moved):
@@ -190,8 +185,7 @@ def segments_of(walls: Table, times: np.ndarray, depth: float) -> list[Segment]:
 
 
 def begin_of(force: np.ndarray) -> tuple[int, float]:
-    """Return the row and the share of the way to the next one at which the resistance
-    [n] begins. Raises ResultsError where that is at the end."""
+    """Return row and share where the resistance [n] begins. Raises ResultsError."""
     idle = np.flatnonzero(force <= 0)
     if not len(idle):
         return 0, 0.0
@@ -205,22 +199,20 @@ def begin_of(force: np.ndarray) -> tuple[int, float]:
 
 
 def speed_of_tolerance(run: LoadedRun) -> float:
-    """Return the speed (m/s) to which the inertia tolerance refers, the largest of the
-    velocity table, which the run need not reach."""
-    history, entries = run.results.history, run.results.summary.get("entries", {})
+    """Return the speed (m/s) to which the inertia tolerance refers."""
+    history, entry = run.results.history, run.results.entry
     steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
     speeds = [*abs(steps)]
     # which slows the table down
-    if entries.get("Rigid body/Largest Mach number", "unlimited") == "unlimited":
-        table = entries.get("Rigid body/Velocity table", "")
+    if entry("Rigid body/Largest Mach number") in ("", "unlimited"):
+        table = entry("Rigid body/Velocity table")
         speeds += [abs(float(v)) for v in re.findall(r":\s*([^,\s]+)", table)]
     return float(max(speeds))
 
 
 def shear_modulus(layers: list[dict[str, Any]], depth: float) -> float:
-    """Return the shear modulus (Pa) of the softest layer above a depth (m); nan where
-    the law of one has none. Materials of one layer, whose numbers change with depth,
-    count by their thickness, each with the stress at rest in its middle."""
+    """Return the shear modulus (Pa) of the softest layer above a depth (m), nan without
+    one. Materials of a layer count by thickness, at the stress at rest."""
     bottoms = [*(float(layer["top_depth_m"]) for layer in layers[1:]), depth]
     above, sums = 0.0, dict[int, tuple[float, float]]()
     for layer, bottom in zip(layers, bottoms):
@@ -259,8 +251,7 @@ def wave_velocity(run: LoadedRun, depth: float) -> float:
 
 
 def springs_of(run: LoadedRun, weight: float) -> Springs:
-    """Return the springs of the last motion of a run, for a submerged weight (N) of
-    the caisson. Raises ResultsError where there are none."""
+    """Return the springs of the last motion under a weight (N). Raises ResultsError."""
     history, scene = run.results.history, run.results.scene
     if "diameter_m" not in scene:
         raise ResultsError(f"{run.directory} is not a finished run of a caisson")

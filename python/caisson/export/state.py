@@ -16,7 +16,6 @@ LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
 # these follow from the exported stress (tables.py)
 LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
-GRAVITY = 9.81  # m/s2: densities are unit weights over it
 TOLERANCE = 1e-6  # m
 # Young's modulus over the norm of the stress, of soil whose law has none
 STIFFNESS = 1e3
@@ -42,11 +41,8 @@ def stress_of(data: Arrays) -> np.ndarray:
 
 @dataclass
 class Wall:
-    """The wall of a rigid body in the ground (m).
-
-    inner, outer: radii; inner is 0 of a body without a plug. profile_r, profile_z: the
-    lower end, from the inside to the outside. shoulder: where the vertical walls end.
-    """
+    """The wall of a rigid body in the ground (m): radii (inner: 0 without a plug), and
+    the profile of its lower end from the inside to the outside."""
 
     inner: float
     outer: float
@@ -82,9 +78,8 @@ class Wall:
 
 @dataclass
 class Layer:
-    """A layer of soil: its number in the scene, its submerged unit weight (N/m3) and
-    Young's modulus (Pa), means over its points, and the depth of its top (m).
-    assumed: its law has no Young's modulus, so that this one follows its stress."""
+    """A layer of soil: number, unit weight in water (N/m3) and Young's modulus (Pa),
+    means over its points; top (m); assumed: its modulus follows from stress."""
 
     number: int
     unit_weight: float
@@ -131,14 +126,8 @@ class State:
             return 0.0
         return self.forces.get("lid_force_N", 0.0) / (np.pi * self.wall.inner**2)
 
-    @property
-    def weight_of_layers(self) -> np.ndarray:
-        """The unit weights of the layers: [n_layers] (N/m3)."""
-        return np.array([layer.unit_weight for layer in self.layers])
-
     def at_rest(self, z: np.ndarray) -> np.ndarray:
-        """Return the vertical stress of the ground before the body came, at heights
-        [n] (m), positive in compression: [n] (Pa)."""
+        """Return the vertical stress at rest at heights [n] (m): [n] (Pa)."""
         layers = sorted(self.layers, key=lambda layer: layer.top)
         tops = [layer.top for layer in layers]
         stress = np.full(len(z), self.surcharge)
@@ -148,8 +137,7 @@ class State:
 
 
 def wall_of(frame: Frame) -> Wall | None:
-    """Return the wall, from the body of the frame or else the cells that it fills;
-    None where no part of it is below the surface."""
+    """Return the wall by the body or its cells, None above the surface."""
     if frame.body is not None:
         from caisson.vtu import positions_of
 
@@ -166,8 +154,7 @@ def wall_of(frame: Frame) -> Wall | None:
 
 
 def forces_at(history: Table, time: float) -> dict[str, float]:
-    """Return the forces on the body at a time: the means of the row that contains it.
-    None where they are all zero, as in the first row."""
+    """Return the forces on the body at a time; none where all are zero."""
     times = history["time_s"]
     row = int(np.searchsorted(times, time - 1e-6 * max(1.0, time)))
     row = min(row, len(times) - 1)

@@ -14,7 +14,6 @@ place of the latter. vessel.html, vessel.png and vessel.csv go to the directory 
 run. With --blank a log sheet to print goes there: log_sheet.pdf and log_sheet.csv.
 """
 import argparse
-import base64
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -76,7 +75,7 @@ def write_page(
     """Write the page of a log beside its picture; return its path."""
     from caisson import report
     from caisson.design.reasons import text_of
-    from caisson.template import template
+    from caisson.template import picture_of, template
 
     shown = expected.run.shown
     names = {name: name.rpartition("_")[::2] for name in columns}
@@ -88,7 +87,6 @@ def write_page(
         [text_of(shown.factor(names[n][1]) * x) if np.isfinite(x) else "" for x in c]
         for n, c in columns.items()
     ]
-    picture = base64.b64encode((path.parent / PICTURE).read_bytes()).decode("ascii")
     css = Path(report.__file__).parent / "page.css"
     text = template(HERE / "page.html.jinja").render(
         title=expected.title,
@@ -96,7 +94,7 @@ def write_page(
         source=expected.source,
         heads=heads,
         rows=list(zip(*texts)),
-        picture=picture,
+        picture=picture_of(path.parent / PICTURE),
         style=css.read_text(encoding="utf-8"),
     )
     return disk.write(path, text)

@@ -17,30 +17,10 @@ because the parameters make the runs:
     cone           a file with a cone test, beside this one: the design methods stand
                    beside the runs in methods.png and methods.csv
 
-    [parameters."Soil/Layer 1/Friction angle"]   # and one of
-    values = [28, 31, 34]                  # numbers or words
-    range = {from = 28, to = 36, n = 5}    # logarithmic = true: equal ratios
-    distribution = "normal"                # caisson.parameters.distributions
-    mean = 33
-    standard_deviation = 2
-
-    [parameters.phi]                       # a name of one's own says the entry,
-    entry = "Soil/Layer 1/Friction angle"  # or several in entries = [...]
-    base = 33                              # of one at a time, default: the median of
-                                           # a distribution, or the value of the scene
-    [parameters.su]                        # times what stands there: an expression
-    times = {"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}
-    distribution = "normal"
-    mean = 1
-    standard_deviation = 0.2
-
-    [parameters.dilatancy]                 # follows from others, by their names
-    entry = "Soil/Layer 1/Dilatancy angle"
-    formula = "max(0, phi - 30)"           # caisson.parameters.formula
-
-    [parameters.sand.choices]              # values that set several entries
-    loose = {"Soil/Layer 1/Porosity" = 0.44, "Soil/Layer 1/Friction angle" = 29}
-    dense = {"Soil/Layer 1/Porosity" = 0.38, "Soil/Layer 1/Friction angle" = 36}
+The tables [parameters.NAME] are in the manual (doc/how_to/studies.md): values, range,
+choices, times, formula or distribution of the entry of this name, or of entry = "..."
+or entries = [...]; base is the value of one at a time, by default the median of a
+distribution or the value of the scene.
 
 A distribution is taken at its quantiles of 5 and 95 % where one parameter changes at a
 time. All runs are checked before the first one starts. Results, besides those of the
@@ -59,14 +39,7 @@ from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import LATIN, runs_of
 from caisson.paths import short
 from caisson.runner import RunError
-from caisson.study import (
-    Options,
-    Study,
-    StudyError,
-    StudyRun,
-    check_is_own,
-    file_name,
-)
+from caisson.study import Options, Study, StudyError, StudyRun, check_is_own, file_name
 from caisson.design import cone
 from caisson.disk import InputError
 
@@ -84,9 +57,8 @@ make_runs = runs_of
 
 
 def check(studies: Sequence[Study], jobs: int) -> None:
-    """Let the program check all runs that are not complete, without computing them, and
-    keep their sizes. Raises StudyError with what it says of the first run that it
-    refuses."""
+    """Let the program check all runs that are not complete, and keep their sizes.
+    Raises StudyError with what it says of the first one it refuses."""
 
     def refusal_of(run: StudyRun) -> str:
         try:
@@ -114,8 +86,7 @@ def check(studies: Sequence[Study], jobs: int) -> None:
 
 
 def cone_of(study: Study) -> Path | None:
-    """Return the cone test of a study, None where it names none. Raises StudyError
-    where it cannot be read."""
+    """Return the cone test of a study, or None. Raises StudyError."""
     if "cone" not in study.keys:
         return None
     path = study.file.parent / str(study.keys["cone"])
@@ -130,8 +101,7 @@ def cone_of(study: Study) -> Path | None:
 
 
 def by_methods(directory: Path, outcomes: Outcomes) -> list[Path]:
-    """Keep the cone test with each run, and write what the design methods say beside
-    the runs; return the files."""
+    """Keep the cone test with each run, and write methods beside runs; return files."""
     test = cone_of(outcomes.study)
     if test is None:
         return []

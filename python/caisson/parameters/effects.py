@@ -42,8 +42,7 @@ class Effect:
 
     @property
     def rises(self) -> bool:
-        """Whether the result is larger at the larger value of the parameter, or at
-        that which stands later in its list."""
+        """Whether the result is larger at the larger, or later, value."""
         first, last = (order(self.parameter, end) for end in self.ends)
         return first <= last
 
@@ -80,8 +79,7 @@ def levels(
     results: np.ndarray,
     parameter: Parameter,
 ) -> dict[Value, float]:
-    """Return the result at each value of a parameter: its mean over the others, of one
-    at a time where all others have their base."""
+    """Return the mean result at each value, of one at a time beside the base."""
     base, name = runs[0].sample, parameter.name
     found: dict[Value, list[float]] = {}
     for run, result in zip(runs, results):
@@ -93,8 +91,7 @@ def levels(
 
 
 def effects_of(outcomes: Outcomes, depth: float | None) -> tuple[float, list[Effect]]:
-    """Return what effects are beside and the effects at a depth (m), the largest
-    first; nothing where the base has no result there, or no run counts."""
+    """Return what effects are beside, and effects at a depth (m), largest first."""
     if depth is None:
         return math.nan, []
     at = outcomes.matrix(np.array([depth]))[:, 0]
@@ -132,8 +129,7 @@ def spread(matrix: np.ndarray) -> tuple[list[str], np.ndarray]:
 
 
 def text_of_effect(effect: Effect, base: float, unit: str, scale: float) -> list[str]:
-    """Return the cells of an effect of a list or a grid, with its share of what it is
-    beside."""
+    """Return the cells of an effect of a list or a grid, with its shares."""
     cells = [effect.parameter.label]
     for result, end in zip((effect.low, effect.high), effect.ends):
         value = f"{float(f'{result * scale:.4g}'):.12g} {unit}".strip()

@@ -56,8 +56,7 @@ class Parameter:
         return dict.fromkeys(self.entries, value) | products
 
     def picked(self, shares: np.ndarray) -> list[Value]:
-        """Return the values at shares [n] from 0 to 1 of its distribution; those of a
-        list are equally likely."""
+        """Return the values at shares [n] from 0 to 1 of its distribution or list."""
         if self.distribution is not None:
             return [rounded(x) for x in self.distribution.quantiles(shares)]
         numbers = np.minimum(shares * len(self.values), len(self.values) - 1)
@@ -71,8 +70,7 @@ class Parameter:
 
 
 def rounded(value: float) -> float:
-    """Return a value with the digits that matter, so that it is read easily and is
-    the same on each machine."""
+    """Return a value with six digits, which is the same on each machine."""
     return float(f"{value:.6g}")
 
 
@@ -199,8 +197,7 @@ def read(name: str, given: Mapping[str, Any]) -> Parameter:
 
 
 def read_all(tables: object) -> list[Parameter]:
-    """Return the parameters of a study by name, formulas after all others, in an
-    order in which they can be computed. Raises StudyError."""
+    """Return parameters, formulas last and in order. Raises StudyError."""
     if not isinstance(tables, dict) or not tables:
         raise StudyError(
             'a study of parameters needs at least one [parameters."Section/Entry"]'

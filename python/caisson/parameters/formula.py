@@ -7,7 +7,6 @@ degrees.
 """
 import ast
 import math
-import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -26,15 +25,10 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "acos": lambda x: math.degrees(math.acos(x)),
     "atan": lambda x: math.degrees(math.atan(x)),
 }
-OPERATORS: dict[type, Callable[..., float]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.Pow: math.pow,
-    ast.USub: operator.neg,
-    ast.UAdd: operator.pos,
-}
+PARTS = (
+    *(ast.Expression, ast.BinOp, ast.UnaryOp, ast.Call, ast.Name, ast.Load),
+    *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow, ast.USub, ast.UAdd),
+)
 
 
 class FormulaError(Exception):
@@ -48,42 +42,36 @@ class Formula:
         """Raises FormulaError where it cannot be read."""
         self.text = text
         try:
-            self.tree = ast.parse(text, mode="eval").body
+            tree = ast.parse(text, mode="eval")
+            parts = list(ast.walk(tree))
+            for part in parts:
+                if isinstance(part, ast.Constant) and type(part.value) in (int, float):
+                    part.value = float(part.value)  # whole ones have no largest power
+                elif not isinstance(part, PARTS):
+                    words = f"{ast.unparse(part)!r} is not understood"
+                    raise FormulaError(f"the formula {text!r:.80}: {words}")
+            self.code = compile(tree, "", "eval")
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             raise FormulaError(f"the formula {text!r:.80} cannot be read") from error
-
-    @property
-    def names(self) -> set[str]:
-        """The parameters that occur in it."""
-        found = {n.id for n in ast.walk(self.tree) if isinstance(n, ast.Name)}
-        return found - set(FUNCTIONS)
+        found = {part.id for part in parts if isinstance(part, ast.Name)}
+        self.names = found - set(FUNCTIONS)  # of parameters
 
     def value(self, values: Mapping[str, Any]) -> float:
         """Return its value. Raises FormulaError where it has none."""
+        used = {name: values[name] for name in self.names & set(values)}
         try:
-            result = float(self._value(self.tree, values))
-        except (ArithmeticError, ValueError, TypeError, RecursionError) as error:
+            if words := [k for k, v in used.items() if not isinstance(v, (int, float))]:
+                raise TypeError(f"{words[0]} is no number")
+            scope: dict[str, Any] = {"__builtins__": {}, **FUNCTIONS, **used}
+            result = float(eval(self.code, scope))  # noqa: S307
+        except (
+            ArithmeticError,
+            LookupError,
+            NameError,
+            TypeError,
+            ValueError,
+        ) as error:
             raise FormulaError(f"the formula {self.text!r:.80}: {error}") from error
         if not math.isfinite(result):
             raise FormulaError(f"the formula {self.text!r} gives {result}")
         return result
-
-    def _value(self, node: ast.AST, values: Mapping[str, Any]) -> float:
-        """Return the value of a part."""
-        if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-            return float(node.value)
-        if isinstance(node, ast.Name) and node.id in values:
-            if isinstance(values[node.id], (int, float)):
-                return float(values[node.id])
-            raise FormulaError(f"the formula {self.text!r}: {node.id} is no number")
-        if isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
-            sides = (self._value(side, values) for side in (node.left, node.right))
-            return OPERATORS[type(node.op)](*sides)
-        if isinstance(node, ast.UnaryOp) and type(node.op) in OPERATORS:
-            return OPERATORS[type(node.op)](self._value(node.operand, values))
-        if isinstance(node, ast.Call) and not node.keywords:
-            name = node.func.id if isinstance(node.func, ast.Name) else ""
-            if name in FUNCTIONS:
-                return FUNCTIONS[name](*(self._value(a, values) for a in node.args))
-        part = ast.unparse(node)
-        raise FormulaError(f"the formula {self.text!r}: {part!r} is not understood")

@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
-from caisson.plot import theory
-from caisson.plot.small import over_depth, with_note
+from caisson.plot import design, theory
+from caisson.plot.small import over_depth, with_note, write_beside
 from caisson.table import write_columns
 from caisson import disk
 
@@ -41,8 +41,7 @@ class Answers(NamedTuple):
     answers: list[list[theory.Answer]]
 
     def band(self, method: int) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return smallest and largest total force [n_depths] by a method, None where
-        it has no answer."""
+        """Return least and most total force [n_depths] by a method, or None."""
         forces = [
             force
             for of_run in self.answers
@@ -60,8 +59,7 @@ class Answers(NamedTuple):
 
 
 def answers_of(outcomes: Outcomes) -> Answers:
-    """Return what the complete runs and the methods say at common depths. Raises
-    ResultsError where a cone test of a run cannot be read."""
+    """Return what runs and methods say at common depths. Raises ResultsError."""
     runs = list(outcomes.complete)
     if len(outcomes.free) == 1:
         parameter = outcomes.free[0]
@@ -81,17 +79,16 @@ def answers_of(outcomes: Outcomes) -> Answers:
 
 
 def write(path: Path, found: Answers) -> Path:
-    """Write the total force (N) of each run, and by each case of each method with the
-    soil of each run, at each 0.1 m
-    and the last depth; cells without an answer are empty."""
+    """Write the total force (N) of each run, and by each case of each method with its
+    soil, at each 0.1 m; cells without an answer are empty."""
     columns: dict[str, np.ndarray] = {DEPTH: found.depth}
     for name, force in zip(found.names, found.computed):
         columns[f"{TOTAL} [{name}]"] = force
-    for i, method in enumerate(theory.METHODS):
+    for i in range(len(theory.METHODS)):
         for name, of_run in zip(found.names, found.answers):
             for case, parts in of_run[i].forces.items():
-                head = f"{method.key}_{case.replace(' ', '_')}_{TOTAL} [{name}]"
-                columns[head] = parts["total"]
+                head = design.column_of(of_run[i], case, "total")
+                columns[f"{head} [{name}]"] = parts["total"]
     return write_columns(path, columns)
 
 
@@ -103,8 +100,7 @@ def depths_of_bars(deepest: float) -> np.ndarray:
 
 
 def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
-    """Draw the range of each method as a bar at some depths, side by side about them;
-    of what goes beyond the axis (kN) the end is written."""
+    """Draw the range of each method as bars at some depths, up to a limit (kN)."""
     depths = depths_of_bars(float(found.depth[-1]))
     methods = [i for i in range(len(theory.METHODS)) if found.band(i) is not None]
     spread = SPREAD * float(np.diff([0.0, *depths]).min())
@@ -132,18 +128,9 @@ def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
             zorder=3,
         )
         for y, end in zip(where[high > limit], high[high > limit]):
-            axes.annotate(
-                f"to {end:,.0f} >",
-                (limit, y),
-                (-3, 0),
-                textcoords="offset points",
-                ha="right",
-                va="center",
-                fontsize=7,
-                color=method.color,
-                bbox={"color": "white", "pad": 0.5},
-                zorder=5,
-            )
+            style = {"fontsize": 7, "color": method.color, "zorder": 5}
+            box = {"color": "white", "pad": 0.5}
+            write_beside(axes, f"to {end:,.0f} >", (limit, y), -1, bbox=box, **style)
 
 
 def draw_runs(axes: Axes, found: Answers) -> None:

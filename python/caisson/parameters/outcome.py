@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, error_bounds
-from caisson.error.error_bar import QUANTITIES, SIDES
 from caisson.evaluation import rest_of_run
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
@@ -69,8 +68,7 @@ def why_failed(run: StudyRun) -> str:
 
 
 def status_of(run: StudyRun) -> tuple[str, str]:
-    """Return how a run ended, and why if it failed. A result of other entries, as of
-    the study before a change, does not count."""
+    """Return how a run ended, and why; results of other entries do not count."""
     record = run.run.completion_record()
     if record is None:
         if run.trouble is None and not (run.run.directory / "log").is_file():
@@ -120,8 +118,7 @@ def outcome_of(run: StudyRun) -> Outcome:
 
 
 def curve_of(history: Table, column: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return depths and values [n] of the way down, of a body that is only pulled of
-    the way up."""
+    """Return depths and values [n] of the way down, or up if there is only that."""
     rows = curves.main_way(history[DEPTH])
     return history[DEPTH][rows], history[column][rows]
 
@@ -132,8 +129,7 @@ def values_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
 
 
 def unit_of(column: str) -> tuple[str, float]:
-    """Return the unit in which a column of history.csv is shown, and what its values
-    are multiplied by."""
+    """Return the unit in which a column is shown, and its factor."""
     for ending, shown in SHOWN.items():
         if column.endswith(ending):
             return shown
@@ -200,8 +196,7 @@ class Outcomes:
         self.grid = curves.common_depths(ways, step)
 
     def table_depths(self, ways: Sequence[np.ndarray]) -> np.ndarray:
-        """Return the depths of the table: those of the study, or each meter and the
-        last depth that all runs have reached."""
+        """Return the depths of the study, or each meter and the last common depth."""
         if "depths" in self.study.keys:
             return np.array(numbers_of(self.study.keys, "depths"))
         found = curves.round_depths(np.concatenate(ways))
@@ -230,9 +225,8 @@ class Outcomes:
         return np.array(rows).reshape(len(rows), len(depths))
 
     def tornado_depth(self) -> float | None:
-        """Return the depth (m) of the tornado: that of the study, or the deepest of
-        the table that as many runs as possible reach; None where no run counts.
-        Raises StudyError where none has been there."""
+        """Return the depth (m) of the tornado, of the study or the deepest that most
+        runs reach; None without runs. Raises StudyError where none has been."""
         if not self.complete:
             return None
         if "tornado_depth" in self.study.keys:
@@ -246,16 +240,16 @@ class Outcomes:
         return float(self.depths[reached == reached.max()].max())
 
     def error(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
-        """Return how far the truth may lie below and above [2, n_depths], by the error
-        bar beside the scene, for its numerics; None where there is none. values: of
-        what is observed."""
-        named = [q for q in QUANTITIES.values() if q.column == self.column]
+        """Return the error below and above [2, n_depths] of values by the error bar
+        beside the scene, for its numerics; None without one."""
+        every = error_bounds.QUANTITIES.values()
+        named = [q for q in every if q.column() == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not named:
             return None
         try:
             bar = read_table(error_bounds.beside(outcome.run.run.scene))
-            sides = [bar[named[0].named(side)] for side in SIDES]
+            sides = [bar[named[0].bar_column(side)] for side in ("below", "above")]
         except ResultsError:
             return None
         nan = math.nan

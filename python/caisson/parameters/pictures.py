@@ -15,7 +15,7 @@ from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
 from caisson.parameters.sampling import BASE, LATIN, ONE
 from caisson import disk
-from caisson.plot.small import over_depth, with_note
+from caisson.plot.small import over_depth, with_note, write_beside
 
 BLUE, RED = "#2166ac", "#c0392b"
 STYLES = ("-", "--", ":", "-.")
@@ -25,8 +25,7 @@ BAR = "error bar of the scene: mesh and method"
 
 
 def draw_quantiles(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
-    """Draw bands between quantiles over the curves they come from; return the median
-    [n_grid]."""
+    """Draw bands between quantiles over the curves; return the median [n_grid]."""
     matrix = outcomes.matrix(outcomes.grid) * scale
     for curve in matrix:
         axes.plot(curve, outcomes.grid, color="0.8", linewidth=0.5, zorder=1)
@@ -61,8 +60,7 @@ class Line:
 
 
 def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
-    """Return the title of the legend and the lines of a grid or a list, dark to light
-    by the values of the parameter that matters most."""
+    """Return legend title and lines of a grid or a list, by the main parameter."""
     runs, parameter = outcomes.complete, outcomes.free[0]
     if len(outcomes.free) > 1:
         _, found = effects.effects_of(outcomes, outcomes.tornado_depth())
@@ -99,8 +97,7 @@ def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
 
 
 def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
-    """Draw the curves of a list or a grid; return that of the base, or the one in the
-    middle, [n_grid]."""
+    """Draw the curves of a list or a grid; return the base or the middle [n_grid]."""
     is_one = outcomes.sampling == ONE
     title, lines = (lines_of_one if is_one else lines_of_grid)(outcomes)
     drawn = []
@@ -121,8 +118,7 @@ def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | No
 def draw_error(
     axes: Axes, outcomes: Outcomes, middle: np.ndarray | None, scale: float
 ) -> str:
-    """Draw the error bar of the scene on a curve at the depths of the table; return
-    what the caption says of it."""
+    """Draw the error bar of the scene on a curve; return words for the caption."""
     if middle is None:
         return NO_BAR
     values = np.interp(outcomes.depths, outcomes.grid, middle / scale)
@@ -198,23 +194,9 @@ def draw_correlations(axes: Axes, found: list[Effect], n: int) -> None:
         color = RED if effect.high > 0 else BLUE
         axes.barh(i, effect.high, color=color, height=0.6)
         side = 1 if effect.high >= 0 else -1
-        axes.annotate(
-            f"{effect.high:+.2f}",
-            (effect.high, i),
-            (4 * side, 0),
-            textcoords="offset points",
-            ha="left" if side > 0 else "right",
-            va="center",
-            fontsize=9,
-        )
+        write_beside(axes, f"{effect.high:+.2f}", (effect.high, i), side, fontsize=9)
     limit = effects.chance(n)
-    axes.axvspan(
-        -limit,
-        limit,
-        color="0.85",
-        zorder=0,
-        label="range of chance (95 %)",
-    )
+    axes.axvspan(-limit, limit, color="0.85", zorder=0, label="range of chance (95 %)")
     axes.set_xlim(-1.18, 1.18)
     axes.set_xlabel("rank correlation (Spearman)")
 
@@ -238,15 +220,8 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
             )
             shown.add(label)
             side = -1 if result == effect.low else 1
-            axes.annotate(
-                text_of(value),
-                (result * scale, i),
-                (4 * side, 0),
-                textcoords="offset points",
-                ha="right" if side < 0 else "left",
-                va="center",
-                fontsize=9,
-            )
+            at = (result * scale, i)
+            write_beside(axes, text_of(value), at, side, fontsize=9)
     results = np.array([(e.low, e.high) for e in found]).ravel() * scale
     span = max(float(np.ptp([*results, base * scale])), 1e-9)
     low, high = min(*results, base * scale), max(*results, base * scale)
@@ -256,8 +231,7 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
 
 
 def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | None:
-    """Write the effects of several parameters at a depth (m); return the path, None
-    where there are none."""
+    """Write the effects of parameters at a depth (m); return the path, or None."""
     base, found = effects.effects_of(outcomes, depth)
     if depth is None or len(found) < 2:
         return None

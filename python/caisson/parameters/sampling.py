@@ -73,8 +73,7 @@ def numbers_of(study: Mapping[str, Any], key: str) -> list[float]:
 
 
 def correlations_of(study: Mapping[str, Any], names: Sequence[str]) -> np.ndarray:
-    """Return the rank correlations [n_parameters, n_parameters] of a study. Raises
-    StudyError."""
+    """Return the rank correlations of a study [n, n]. Raises StudyError."""
     found = np.eye(len(names))
     given = study.get("correlations", [])
     for item in given if isinstance(given, list) else [given]:
@@ -97,8 +96,7 @@ def correlations_of(study: Mapping[str, Any], names: Sequence[str]) -> np.ndarra
 
 
 def paired(shares: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Return the columns of shares [n_samples, n_parameters], each in the order that
-    gives them these correlations [n_parameters, n_parameters]."""
+    """Return columns of shares [n_samples, n], ordered for correlations [n, n]."""
     scores = stats.norm.ppf(shares)
     present = np.linalg.cholesky(
         np.corrcoef(scores, rowvar=False).reshape(wanted.shape)
@@ -126,8 +124,7 @@ def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sampl
 
 
 def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
-    """Return the value of a parameter at the base: what it says, or the median of its
-    distribution, or the value of the scene. Raises StudyError."""
+    """Return the base of a parameter: given, median or scene's. Raises StudyError."""
     if parameter.base is not None:
         if parameter.choices and parameter.base not in parameter.choices:
             raise StudyError(
@@ -196,8 +193,7 @@ def samples_of(
 def names_of(
     sampling: str, free: Sequence[Parameter], samples: list[Sample]
 ) -> list[str]:
-    """Return the names of the runs [n_samples]. Those of a grid and of one parameter
-    at a time are made of values, so that a run keeps its name when others are added."""
+    """Return the names of the runs [n_samples], of their values where these are few."""
     digits = len(str(len(samples)))
     numbers = [f"sample {i + 1:0{digits}}" for i in range(len(samples))]
     if sampling == LATIN:
@@ -218,8 +214,7 @@ def names_of(
 
 
 def scene_reader(scene: Run) -> SceneValue:
-    """Return what reads the value of an entry of the scene, with the program when it
-    is first asked for."""
+    """Return what reads the value of an entry of the scene."""
 
     @functools.cache
     def entries() -> dict[str, str]:
@@ -244,8 +239,7 @@ def scene_reader(scene: Run) -> SceneValue:
 
 
 def runs_of(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
-    """Return the runs of a study as a list of their keys: name, set, sample. Raises
-    StudyError."""
+    """Return the runs of a study as their keys. Raises StudyError."""
     for key in {"depths", "tornado_depth"} & set(study):
         numbers_of(study, key)
     parameters = read_all(study.get("parameters"))

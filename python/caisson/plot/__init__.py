@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of a run, written into its directory; no display is needed."""
 import argparse
-import sys
 from pathlib import Path
 
 from caisson import error_bounds
+from caisson.command_line import for_each
 from caisson.results import Results, ResultsError
 from caisson.design import assumed, cone_options
-from caisson.disk import InputError
 
 
 SMALL = 9  # pt, of all texts of pictures that are as wide as a page
@@ -55,20 +54,14 @@ def _drawn(directory: Path, run: Results) -> list[Path]:
 
 def add_method_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of the design methods: a cone test, and what they assume."""
-    parser.add_argument(
-        "--cpt",
-        type=Path,
-        metavar="FILE",
-        help="a cone test for the design methods; it is kept as cone.csv in the"
-        " directory of the run",
-    )
+    text = "a cone test for the design methods; kept as cone.csv in the directory"
+    parser.add_argument("--cpt", type=Path, metavar="FILE", help=text)
     cone_options.add_arguments(parser)
     assumed.add_arguments(parser)
 
 
 def keep_methods(options: argparse.Namespace, directory: Path) -> bool:
-    """Keep what is given of them with a run; return whether there is anything. Raises
-    InputError."""
+    """Keep what is given of them with a run, if anything. Raises InputError."""
     is_new = assumed.keep(options, directory) or options.cpt is not None
     how = cone_options.how_of(options)
     if options.cpt is not None:
@@ -84,24 +77,16 @@ def keep_methods(options: argparse.Namespace, directory: Path) -> bool:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson plot`."""
     add_method_arguments(parser)
-    parser.add_argument(
-        "directories",
-        nargs="+",
-        type=Path,
-        metavar="DIR",
-        help="the output directory of a run",
-    )
+    text = "the output directory of a run"
+    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR", help=text)
 
 
 def main(options: argparse.Namespace) -> int:
     """Draw the pictures of each run; a run that cannot be drawn is named."""
-    status = 0
-    for directory in options.directories:
-        try:
-            keep_methods(options, directory)
-            for picture in draw(directory):
-                print(f"plot: {picture}")
-        except (InputError, OSError) as error:
-            print(f"plot: {error}", file=sys.stderr)
-            status = 1
-    return status
+
+    def draw_one(directory: Path) -> None:
+        keep_methods(options, directory)
+        for picture in draw(directory):
+            print(f"plot: {picture}")
+
+    return for_each("plot", options.directories, draw_one)

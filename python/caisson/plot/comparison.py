@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson import curve, curves
+from caisson import curve, curves, disk
 from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.paths import distinct_ends, seen
@@ -23,7 +23,6 @@ from caisson.plot.small import in_units, over_depth
 from caisson.design.quantity import length
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_columns
-from caisson import disk
 from caisson.shown import USUAL, Units
 
 LINES = ("black", "#c0392b", "#2166ac", "#2e8b57", "#8c510a", "#7b3294")
@@ -40,8 +39,7 @@ Histories = dict[str, Table]  # by the name of the run
 
 
 def pushing_force(history: Table) -> np.ndarray:
-    """Return what pushes the body besides the suction, in N, negative where it
-    pulls: the force of the soil less that of the water on lid and tip."""
+    """Return what pushes the body besides the suction (N), negative in a pull."""
     force = history[TOTAL]
     if "suction_force_N" in history:
         force = force - history["suction_force_N"] + history["tip_water_force_N"]
@@ -49,8 +47,7 @@ def pushing_force(history: Table) -> np.ndarray:
 
 
 def names_of(directories: Sequence[Path]) -> list[str]:
-    """Return a name for each directory: its last part, or as many of its last parts
-    as distinguish it from the others."""
+    """Return a name for each directory: as many last parts as distinguish it."""
     names = distinct_ends([directory.resolve().parts for directory in directories])
     if len(set(names)) < len(names):
         raise ResultsError("the same directory is given twice")
@@ -58,16 +55,14 @@ def names_of(directories: Sequence[Path]) -> list[str]:
 
 
 def default_picture(directories: Sequence[Path]) -> Path:
-    """Return the picture beside the first run, with the names of all: other runs have
-    another one."""
+    """Return the picture beside the first run, with the names of all."""
     names = "_".join(name.replace("/", "-") for name in names_of(directories))
     folder = directories[0].resolve().parent
     return folder / f"comparison_{names[:LONGEST]}.png"
 
 
 def read(directories: Sequence[Path]) -> Histories:
-    """Return the histories of the runs. Raises ResultsError where one has no
-    penetration."""
+    """Return the histories. Raises ResultsError of a body at rest."""
     found = {}
     for name, directory in zip(names_of(directories), directories):
         found[name] = Results(directory).history
@@ -77,8 +72,7 @@ def read(directories: Sequence[Path]) -> Histories:
 
 
 def panels_of(histories: Histories) -> dict[str, Table]:
-    """Return the curves of each panel by its axis and the name of the run: the
-    required suctions, where suction draws bodies down, and the forces."""
+    """Return the curves by panel and run: required suctions, and forces."""
     suctions = {
         name: np.maximum(history[design.SUCTION], 0) / 1e3
         for name, history in histories.items()
@@ -122,8 +116,7 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
 
 
 def quantities_of(history: Table) -> Table:
-    """Return the columns [n_rows] of the file of one run: all forces, suctions and
-    the pressure on a cylinder, but those that are 0 throughout."""
+    """Return the columns [n_rows] of one run that are not 0 throughout."""
     found = {PUSHING: pushing_force(history)} if "suction_force_N" in history else {}
     forces = (name for name in history if name.endswith("_N"))
     for name in [TOTAL, *forces, *MORE]:
@@ -133,8 +126,7 @@ def quantities_of(history: Table) -> Table:
 
 
 def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the rows of the way down and of the way up by the name of the run, the
-    latter marked where there are both; without those where they begin."""
+    """Return the rows of the ways down and up by name, without their first."""
     down, up = curves.way_down(depth)[1:], curves.way_up(depth)[1:]
     if not len(up):
         return {name: down}
@@ -142,8 +134,7 @@ def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def columns_of(histories: Histories, interval: float) -> Table:
-    """Return the columns [n_depths] of the file, those of a quantity beside each
-    other."""
+    """Return the columns [n_depths] of the file, by quantity."""
     depths = curves.common_depths([h[DEPTH] for h in histories.values()], interval)
     if len(depths) == 0:
         raise ResultsError(f"no run passes a multiple of {interval:g} m")
@@ -167,15 +158,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "%(prog)s [--interval M] [PICTURE.png] DIR...\n"
         "       %(prog)s --values [--at M,M...] DIR..."
     )
-    parser.add_argument(
-        "words",
-        nargs="+",
-        type=Path,
-        metavar="DIR",
-        help="the output directory of a run, whose name is its label; before the first"
-        " one the picture may stand, default comparison_DIR_DIR.png beside the first"
-        " run; the .csv file of the same name is written beside it",
+    text = (
+        "the output directory of a run, whose name is its label; before the first one"
+        " the picture may stand, default comparison_DIR_DIR.png beside the first run;"
+        " the .csv file of the same name is written beside it"
     )
+    parser.add_argument("words", nargs="+", type=Path, metavar="DIR", help=text)
     text = f"between the depths of the .csv file, in m, default {INTERVAL:g}"
     text += f", or {INTERVAL_OF_SMALL:g} of bodies shorter than 1 m"
     parser.add_argument("--interval", type=length, metavar="M", help=text)

@@ -72,12 +72,8 @@ class Frame:
 
 
 def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
-    """Return the frames to draw, MOST_FRAMES at most.
-
-    wanted: the penetrations at which the scene asks for frames (m). Without any,
-    and where a run has not come to the last of them, frames are taken evenly. The last
-    frame is always among them.
-    """
+    """Return the frames to draw, MOST_FRAMES at most and the last among them: at the
+    penetrations wanted (m), or evenly where a run has not come to them."""
     positions = np.array([time for time, _ in series])
     if penetration(history) is not None:
         positions = np.array([depth_at(time, history) for time in positions])
@@ -116,8 +112,7 @@ def inside(frame: Frame, window: Window) -> np.ndarray:
 def paint_smoothly(
     axes: Axes, frame: Frame, values: np.ndarray, style: Style, sides: Sides = (1, -1)
 ) -> ScalarMappable:
-    """Draw a field between the means of the cells [n], on both sides of the axis; gray
-    where the soil has no value."""
+    """Draw a field between the means of cells [n]; gray where it has no value."""
     polygons = frame.means.polygons
     axes.add_collection(
         PolyCollection(
@@ -152,8 +147,7 @@ def paint_smoothly(
 
 
 def tops_of(scene: dict[str, Any]) -> list[float]:
-    """Return the z (m) at which another layer began; not those within a layer that
-    changes with depth."""
+    """Return the z (m) at which another layer began."""
     layers = scene.get("layers") or []
     return [
         -float(below["top_depth_m"])
@@ -165,9 +159,8 @@ def tops_of(scene: dict[str, Any]) -> list[float]:
 def boundary_now(
     position: np.ndarray, displacement: np.ndarray, z: float, edges: np.ndarray
 ) -> np.ndarray:
-    """Return where a boundary that was at z is now, [n, 2] in the strips between
-    edges [n + 1]: it has moved as the material points [n_points, 2] that were closest
-    to it; nan where none was close."""
+    """Return where a boundary at z is now, [n, 2] between edges [n + 1]: moved as the
+    closest of the material points [n_points, 2], nan without any."""
     off = position[:, 1] - displacement[:, 1] - z
     strip = np.searchsorted(edges, position[:, 0]) - 1
     found = np.full((len(edges) - 1, 2), np.nan)
@@ -181,8 +174,7 @@ def boundary_now(
 
 
 def draw_layers(axes: Axes, frame: Frame) -> None:
-    """Draw the boundaries between layers where they are now, for all colors; not at a
-    wall that has passed, which has dragged a skin of soil with it."""
+    """Draw the boundaries between layers as they are now, not beside a wall."""
     edges = np.unique(frame.means.polygons[:, :2, 0])
     move = frame.soil["displacement"]
     for top in frame.tops:
@@ -232,8 +224,7 @@ def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
 
 
 def nice_above(value: float) -> float:
-    """Return the least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is
-    not below the value."""
+    """Return the least round number that is not below the value."""
     if not np.isfinite(value) or value <= 0:
         return 1.0
     power = 10.0 ** np.floor(np.log10(value))
@@ -244,9 +235,8 @@ def nice_above(value: float) -> float:
 def panels(
     n: int, window: Window, bars: int, note: float
 ) -> tuple[Figure, np.ndarray, list[Axes]]:
-    """Return a figure of n panels beside each other with the shape of the window, as
-    wide as a page or narrower, and the places of color bars below them. note: the
-    height of a text below these (inches)."""
+    """Return a figure of n panels in the shape of the window, at most as wide as a
+    page, and places of color bars. note: height of a text below (inches)."""
     left, gap, above, foot = 0.55, 0.2, 0.45, note + 1.25  # inches
     width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, 3.6)
     height = width * (window[2] - window[1]) / (2 * window[0])
@@ -283,8 +273,7 @@ def shown_values(
 def stress_of(
     frames: Sequence[Frame], window: Window
 ) -> tuple[list[np.ndarray], Style]:
-    """Return the vertical effective stress of each frame in kPa, compression
-    positive, and its colors."""
+    """Return the vertical effective stress of frames (kPa), and its colors."""
     fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
@@ -325,8 +314,7 @@ def figure_of(
 
 
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress at each frame, and its ratio to that at
-    rest."""
+    """Draw the vertical effective stress, and its ratio to that at rest."""
     stress = (
         "left halves: vertical effective stress (kPa)",
         *stress_of(frames, window),
@@ -357,8 +345,7 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
 def draw_tip(
     axes: Axes, frame: Frame, values: np.ndarray, box: Box, style: Style
 ) -> EllipseCollection:
-    """Draw a field on a small part: a disc of its own area for every material
-    point, on the means of the cells."""
+    """Draw a field as discs, one for each material point, on means of the cells."""
     left, right, bottom, top = box
     position, size = frame.soil["position"], np.sqrt(frame.means.area)
     middle, half = np.array([left + right, bottom + top]) / 2, (right - left) / 2
@@ -403,8 +390,7 @@ def tip_box(frame: Frame, window: Window, scene: dict[str, Any]) -> Box | None:
 def draw_displacement(
     path: Path, frame: Frame, window: Window, scene: dict[str, Any]
 ) -> Path:
-    """Draw the displacement of the soil, and displacement and plastic strain at the
-    tip."""
+    """Draw the displacement, and at the tip the plastic strain, too."""
     soil, box = frame.soil, tip_box(frame, window, scene)
     moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
     fields = [("displacement (m)", moved, "viridis")]
@@ -449,8 +435,7 @@ def frames_of(run: Results) -> list[Frame]:
 
 
 def draw(run: Results, frames: Sequence[Frame], window: Window) -> list[Path | None]:
-    """Write stress.png, displacement.png and, where volume changes,
-    void_ratio.png; return their paths, None for none."""
+    """Write stress.png, displacement.png and void_ratio.png; return the paths."""
     directory, scene = run.directory, run.scene
     return [
         draw_stress(directory / "stress.png", frames, window),

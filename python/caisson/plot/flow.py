@@ -17,8 +17,7 @@ PIECES = 4  # of the width of a cell in the mudline
 
 
 class Flow:
-    """The flow through the soil, in the unit of the pressure per meter, linear in
-    each cell and continuous."""
+    """The flow through the soil, in units of pressure per meter."""
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
         """pressure: excess at the points."""
@@ -37,8 +36,7 @@ class Flow:
     def heights(
         self, cell: np.ndarray, r: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the place of r in the width of its cell, from 0 to 1, and bottom
-        and top of the cell there."""
+        """Return where r is in its cell, 0 to 1, and bottom and top there."""
         corners = self.corners[cell]
         left, right = corners[:, 0, 0], corners[:, 1, 0]
         xi = (r - left) / (right - left)
@@ -46,8 +44,7 @@ class Flow:
         return xi, bottom, (1 - xi) * corners[:, 3, 1] + xi * corners[:, 2, 1]
 
     def at(self, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the flow [n, 2] at positions [n, 2], nan out of the soil, and the
-        sizes of their cells."""
+        """Return the flow [n, 2] at positions [n, 2], or nan, and sizes of cells."""
         cell = cell_of(position, self.corners)
         xi, bottom, top = self.heights(cell, position[:, 0])
         eta = (position[:, 1] - bottom) / np.maximum(top - bottom, 1e-12)
@@ -59,16 +56,14 @@ class Flow:
         return result, np.minimum(width, np.maximum(top - bottom, 0.2 * width))
 
     def pieces(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the radii of the middles of some pieces of each column of cells, from
-        the axis outward, and the widths of the pieces."""
+        """Return radii and widths of pieces of the columns of cells."""
         lines = np.unique(np.round(self.corners[:, :2, 0], 6))
         share = np.arange(PIECES) / PIECES
         ends = np.append(lines[:-1, None] + np.diff(lines)[:, None] * share, lines[-1])
         return (ends[:-1] + ends[1:]) / 2, np.diff(ends)
 
     def mudline(self, body: np.ndarray) -> list[np.ndarray]:
-        """Return the parts of the mudline, each [n, 2], from the axis outward, between
-        which a body stands in the soil. body: its cells [n, 4, 2]."""
+        """Return parts of the mudline [n, 2] between cells of a body [n, 4, 2]."""
         r, width = self.pieces()
         cell = cell_of(np.column_stack([r, np.full(len(r), np.inf)]), self.corners)
         xi, _, top = self.heights(cell, r)
@@ -83,8 +78,7 @@ class Flow:
         return np.split(place, np.flatnonzero(gap) + 1)
 
     def starts(self, n: int, level: float, radius: float) -> np.ndarray:
-        """Return places [n, 2] at a level, within a radius, in the middles of n equal
-        shares of the water that rises there, or that sinks where more does."""
+        """Return places [n, 2] at a level that share the water within a radius."""
         r, width = self.pieces()
         r, width = r[r < radius], width[r < radius]
         place = np.column_stack([r, np.full(len(r), level)])

@@ -8,12 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson import curves
+from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import band, theory
 from caisson.plot.small import fade, in_units, over_depth, with_note
 from caisson.results import Results, Table
-from caisson import disk
 
 COLORS = {
     "total": "black",
@@ -45,8 +44,7 @@ def penetration(history: Table) -> np.ndarray | None:
 
 
 def smooth(depth: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """Return the running mean of a force in kN; short runs have a window of a
-    quarter of their path."""
+    """Return the running mean of a force in kN, over window_of()."""
     return running_mean(depth, force, window_of(depth)) / 1e3
 
 
@@ -63,8 +61,7 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
 
 
 def has_suction(run: Results) -> bool:
-    """Return whether a run has suction: its forces are not those of jacking, beside
-    which methods stand."""
+    """Return whether a run has suction, so that its forces are not of jacking."""
     return "required_suction_Pa" in run.history
 
 
@@ -128,9 +125,8 @@ def draw_error_bars(axes: Axes, bounds: Table) -> None:
 
 
 def set_limits(axes: Axes, depth: np.ndarray, end: float | None) -> None:
-    """Set limits from the running means, so that no spike of a raw line hides them,
-    and from the methods up to half as much again. end: the depth where suction ends
-    (m), below which all is gray."""
+    """Set limits from the running means, not by spikes, and from methods up to half as
+    much again. end: where suction ends (m), below which all is gray."""
 
     def values(is_mean: Callable[[float], bool]) -> np.ndarray:
         lines = [
@@ -237,8 +233,7 @@ def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> st
 
 
 def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
-    """Return the figure of a body that penetrates; a panel of all methods is added
-    where there is one besides Houlsby and Byrne."""
+    """Return the figure of a body that penetrates, with methods if there are any."""
     site = theory.site_of(run)
     answers = theory.answers_to(site, max(depth.max(), 0))
     with_methods = not has_suction(run) and any(map(has_line, answers[1:]))

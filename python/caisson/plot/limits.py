@@ -10,7 +10,7 @@ lid: no suction helps from that depth on. The wall buckles (design/shell).
 import math
 from math import inf
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from caisson.evaluation import DEPTH as DEPTH_COLUMN
 from caisson.evaluation import HEAVE as HEAVE_COLUMN
 from caisson.evaluation import at_depths, pump_limit
 from caisson.plot import suction_methods, theory
-from caisson.results import Results
+from caisson.results import Results, ResultsError
 from caisson.table import write_columns
 
 LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
@@ -32,29 +32,25 @@ LID, SHELL = "plug meets the lid", "wall buckles (DNV-RP-C202)"
 
 
 class Limit(NamedTuple):
-    """A limit: its kind, the entry of its factor in section Design with the default,
-    and its color in charts."""
+    """A limit: its kind, the entry of its factor, and its color in charts."""
 
     kind: str
     entry: str
-    factor: float
     color: str
     source: str = ""  # of a default other than 1
 
 
 LIMITS = {
-    COMPUTED: Limit("piping", "piping", 1.0, "#e6550d"),
-    PIPING: Limit("piping", "piping", 1.0, "#a63603"),
+    COMPUTED: Limit("piping", "piping", "#e6550d"),
+    PIPING: Limit("piping", "piping", "#a63603"),
     REVERSE_BEARING: Limit(
-        "plug of clay", "plug failure", 1.5, "#6a51a3", "custom, DNV-RP-E303"
+        "plug of clay", "plug failure", "#6a51a3", "custom, DNV-RP-E303"
     ),
-    LIFT: Limit("plug of clay", "plug lift", 1.0, "#dd1c77"),
-    BOILING: Limit("water boils", "boiling", 1.0, "#cb181d"),
-    PUMP: Limit("pump", "pump", 1.0, "#00838f"),
-    LID: Limit(LID, "plug heave", 1.0, "#5d4037"),
-    SHELL: Limit(
-        "wall buckles", "shell buckling", 1.3, "#1a1aff", "on loads, DNV-OS-C101"
-    ),
+    LIFT: Limit("plug of clay", "plug lift", "#dd1c77"),
+    BOILING: Limit("water boils", "boiling", "#cb181d"),
+    PUMP: Limit("pump", "pump", "#00838f"),
+    LID: Limit(LID, "plug heave", "#5d4037"),
+    SHELL: Limit("wall buckles", "shell buckling", "#1a1aff", "on loads, DNV-OS-C101"),
 }
 ABSENT = {  # kind: why a run has no limit of it
     "piping": "no suction while water flows through the plug",
@@ -64,32 +60,26 @@ ABSENT = {  # kind: why a run has no limit of it
     LID: "length of the skirt not known",
     "wall buckles": "wall not known",
 }
-STEEL = {  # entries of section Design: default
-    "Steel yield strength": 355e6,
-    "Steel Youngs modulus": 210e9,
-    "Fixity depth over diameter": 0.5,
-    "Ring stiffener spacing": 0.0,
-}
+STEEL = (  # entries of section Design, as shell.Wall has them
+    *("Steel yield strength", "Steel Youngs modulus"),
+    *("Fixity depth over diameter", "Ring stiffener spacing"),
+)
 
 
-def number_of(run: Results, name: str, default: float) -> float:
-    """Return an entry of section Design; the default in files of earlier versions."""
-    summary = run.summary if run.scene else {}
-    path, known = f"Design/{name}", dict[str, Any]()
-    for part in ("defaults", "entries"):
-        known |= summary.get(part) or {}
-    try:
-        return float(known.get(path, default))
-    except ValueError:
-        return default
+def number_of(run: Results, name: str) -> float:
+    """Return an entry of section Design. Raises ResultsError of an earlier version."""
+    if not (text := run.entry(f"Design/{name}")):
+        raise ResultsError(
+            f"{run.directory / 'run.json'} has no entry Design/{name}: it is of an"
+            " earlier version of the program; run the scene again"
+        )
+    return float(text)
 
 
 def factors_of(run: Results) -> dict[str, float]:
-    """Return the factor on each limit."""
-    return {
-        name: number_of(run, f"Factor on {limit.entry}", limit.factor)
-        for name, limit in LIMITS.items()
-    }
+    """Return the factor on each limit; empty where a run has left no run.json yet."""
+    limits = LIMITS.items() if run.scene else ()
+    return {name: number_of(run, f"Factor on {x.entry}") for name, x in limits}
 
 
 def with_factor(name: str, factor: float) -> str:
@@ -103,12 +93,14 @@ def absent_of(found: dict[str, np.ndarray]) -> list[str]:
     return [f"{kind}: {why}" for kind, why in ABSENT.items() if kind not in known]
 
 
-def sources_of(factors: dict[str, float], found: dict[str, np.ndarray]) -> str:
+def sources_of(run: Results, found: dict[str, np.ndarray]) -> str:
     """Return where the factors on limits come from, in a sentence."""
-    known = {LIMITS[n].entry: (factors[n], LIMITS[n]) for n in found if n in factors}
+    factors, given = factors_of(run), run.known.get("entries", {})
+    known = {LIMITS[n].entry: (factors[n], LIMITS[n].source) for n in found}
     words = [
-        f"{entry} {factor:g} ({limit.source if factor == limit.factor else 'given'})"
-        for entry, (factor, limit) in known.items()
+        f"{entry} {factor:g}"
+        f" ({'given' if f'Design/Factor on {entry}' in given else source})"
+        for entry, (factor, source) in known.items()
         if factor != 1
     ]
     others = "1 elsewhere, as none is established"
@@ -123,15 +115,14 @@ def wall_of(run: Results) -> shell.Wall | None:
     known = [run.scene.get(name) for name in sizes]
     if None in known:
         return None
-    steel = [number_of(run, name, default) for name, default in STEEL.items()]
+    steel = [number_of(run, name) for name in STEEL]
     steel[-1] = steel[-1] or inf
     return shell.Wall(*(float(x or 0) for x in known), *steel)
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
-    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
-    at depths [n], nan where there is no suction, and where hardly any water flows,
-    as with the tip in clay. The flow is linear in the suction."""
+    """Return the suction (kPa) [n] at which the exit gradient becomes critical at
+    depths [n], as flow is linear; nan without suction or hardly any flow."""
     history = run.history
     if "critical_gradient" not in history:
         return np.full(len(at), np.nan)
@@ -149,8 +140,7 @@ def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
 
 
 def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
-    """Return the suction (kPa) at which the wall buckles at depths [n] (m), by the
-    pressures on it that the run has at its frames."""
+    """Return the suction (kPa) [n] at which the wall buckles at depths [n] (m)."""
     if (wall := wall_of(run)) is None:
         return np.full(len(at), np.nan)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, at)
@@ -165,14 +155,13 @@ def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
 def write_pressures(path: Path, run: Results) -> Path | None:
     """Write the pressure from outside along the wall at the frames of a run with
     suction, the load of a model of the shell; return its path, None without any."""
-    wall = wall_of(run)
+    wall = wall_of(run) if "suction_Pa" in run.history else None
     found = shell.pressures_of(run, wall) if wall else {}
     return write_columns(path, found) if found else None
 
 
 def rounded_down(depth: float) -> float:
-    """Return a depth (m) in whole decimeters, or with two digits below 1 m; a
-    twentieth less than one of them counts as that one."""
+    """Return a depth (m) in whole decimeters, or two digits, rounded down."""
     step = min(0.1, 10.0 ** (math.floor(math.log10(depth)) - 1)) if depth > 0 else 0.1
     return round(step * math.floor(depth / step + 0.05), 9)
 
@@ -192,10 +181,11 @@ def lid_depth(depth: np.ndarray, room: np.ndarray) -> float | None:
 
 
 def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the limits of the suction (kPa) at depths [n], nan or infinite where one
-    is none, each by its factor; only those that there are. That of the lid is 0 from
-    where the plug meets it."""
-    numbers, factors = at_depths(run, at), factors_of(run)
+    """Return the limits of the suction (kPa) [n], each by its factor, nan or infinite
+    for none; that of the lid is 0 from where the plug meets it."""
+    numbers = at_depths(run, at)
+    if not (factors := factors_of(run)):
+        return {}
     found: dict[str, np.ndarray] = {}
     if "critical_gradient" in run.history:
         found[COMPUTED] = critical_by_gradient(run, at)

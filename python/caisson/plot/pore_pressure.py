@@ -19,8 +19,7 @@ LINE = {"color": "0.1", "linewidth": 0.9, "zorder": 2}
 
 
 def style_of(low: float, high: float) -> fields.Style:
-    """Return colors for pressures from low to high: blue below that of the open
-    water, red above it, and white where both are the same."""
+    """Return colors for pressures: blue below 0, red above, and white at 0."""
     most = max(-low, high)
     low = -fields.nice_above(-low) if -low > 0.02 * most else 0.0
     high = fields.nice_above(high) if high > 0.02 * most or low == 0 else 0.0
@@ -91,8 +90,7 @@ def caption(frames: Sequence[fields.Frame]) -> str:
 def draw_water(
     axes: Axes, frame: fields.Frame, window: fields.Window, least: float | None
 ) -> None:
-    """Draw the mudline, and flow lines where the water flows: least is the pressure
-    (kPa) below which it hardly does."""
+    """Draw the mudline, and flow lines above the pressure least (kPa)."""
     flow = Flow(frame.means, frame.soil["pore_pressure"])
     if least is not None and np.abs(frame.soil["pore_pressure"]).max() / 1e3 > least:
         draw_flow(axes, flow, frame, window)

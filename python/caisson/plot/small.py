@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Axes over depth, notes below pictures, and the units of small bodies: N, Pa, mm."""
+from typing import Any
+
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -21,8 +23,7 @@ def fade(axes: Axes, end: float | None) -> None:
 
 
 def in_units(figure: Figure, shown: Units) -> None:
-    """Let the axes of a figure, whose labels have kN, kPa or m in brackets, show their
-    numbers in the units of a run."""
+    """Let axes with kN, kPa or m in brackets show the units of a run."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
             label_in_units(axis, shown)
@@ -44,6 +45,14 @@ def over_depth(axes: Axes, label: str, depth: str, grid: str = "both") -> None:
     axes.xaxis.tick_top()
     axes.set_xlabel(label)
     axes.set_ylabel(depth)
+
+
+def write_beside(
+    axes: Axes, text: str, at: tuple[float, float], side: int, **style: Any
+) -> None:
+    """Write a text to the left (-1) or right (1) of a place."""
+    style = {"ha": "left" if side > 0 else "right", "va": "center", **style}
+    axes.annotate(text, at, (4 * side, 0), textcoords="offset points", **style)
 
 
 def with_note(figure: Figure, note: str) -> None:

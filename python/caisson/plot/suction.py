@@ -8,10 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.evaluation import rest_of_run
-from caisson.plot import limits
-from caisson.plot import suction_methods as methods
-from caisson.plot import band as between
-from caisson.plot import theory
+from caisson.plot import band as between, limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
 from caisson.plot.small import fade, in_units, over_depth, with_note
@@ -48,8 +45,7 @@ def has_line(*suctions: np.ndarray) -> bool:
 
 
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the ranges of the required suction of the methods, in kPa, from where the
-    weight no longer suffices."""
+    """Draw the ranges of the required suction of the methods (kPa)."""
     for method in answers.required:
         color = COLOR_OF.get(method.name, GREEN)
         low, high = (end / 1e3 for end in method.band)
@@ -119,8 +115,7 @@ def columns_of(history: Table, name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> list[str]:
-    """Draw the limits of the suction [n] (kPa) at depths [n] (m), each by its factor,
-    over their least; return those that are out of the range, in words."""
+    """Draw limits [n] (kPa) at depths [n] (m); return those out of the range."""
     factors, beyond = limits.factors_of(run), list[str]()
     for name, limit in found.items():
         label, known = limits.with_factor(name, factors[name]), limit[limit < np.inf]
@@ -139,8 +134,7 @@ def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> li
 
 
 def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
-    """Draw the suction of the run, of the methods, and its limits; return which limits
-    are out of the range."""
+    """Draw suction, methods and limits; return the limits out of the range."""
     history = run.history
     depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
@@ -194,8 +188,7 @@ def draw_gradients(axes: Axes, run: Results) -> None:
 
 
 def draw_heave(axes: Axes, run: Results) -> None:
-    """Draw the heave of the plug and write the seepage at the end; what a pump takes
-    besides depends on the rate of penetration, and a run is faster than a caisson."""
+    """Draw the heave of the plug, and write the seepage at the end."""
     history = run.history
     axes.plot(
         history["plug_heave_m"],
@@ -256,8 +249,7 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
 
 
 def draw(directory: Path, run: Results) -> list[Path]:
-    """Write suction.png; return its path, none without a pump or without
-    penetration."""
+    """Write suction.png; return its path, none without a way under suction."""
     history = run.history
     if "required_suction_Pa" not in history:
         return []

@@ -11,19 +11,7 @@ from math import nan, pi
 
 import numpy as np
 
-from caisson.plot.theory import (
-    ASSUMED_CONE,
-    OF_CLAY,
-    Beside,
-    NotApplicable,
-    Scene,
-    Site,
-    answer_of,
-    houlsby_byrne_of,
-    plug_limits,
-    senders_randolph_of,
-    skirt_of,
-)
+from caisson.plot import theory
 from caisson.design import suction_installation as installation
 from caisson.design.cone import ConeMethod
 from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
@@ -68,14 +56,14 @@ class Answers:
     rest: dict[str, float] = field(default_factory=dict)
     why_not: str = ""
     assumed: str = ""  # of the cone resistance: what it rests on
-    in_clay: Beside | None = None
+    in_clay: theory.Beside | None = None
     rest_by: str = "Houlsby & Byrne"
     plug: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def senders_randolph(self) -> str:
         """The name of the method from a cone."""
-        return SENDERS_RANDOLPH + (ASSUMED_CONE if self.assumed else "")
+        return SENDERS_RANDOLPH + (theory.ASSUMED_CONE if self.assumed else "")
 
     @property
     def words(self) -> str:
@@ -89,7 +77,7 @@ class Answers:
         )
 
     @property
-    def required(self) -> list[Beside]:
+    def required(self) -> list[theory.Beside]:
         """The required suctions of the methods that have any."""
         found = self.suctions
         if not found:
@@ -99,16 +87,16 @@ class Answers:
         cone = {"low": found[CONE_LOW], "high": found[CONE_HIGH]}
         limit = found[CRITICAL_SENDERS_RANDOLPH]
         both = (
-            Beside(HOULSBY_BYRNE, byrne, bound, found[PIPING], may_end=True),
-            Beside(self.senders_randolph, cone, {}, limit),
+            theory.Beside(HOULSBY_BYRNE, byrne, bound, found[PIPING], may_end=True),
+            theory.Beside(self.senders_randolph, cone, {}, limit),
         )
         return [method for method in both if method.is_known]
 
 
-def weight_of(scene: Scene) -> float:
+def weight_of(scene: theory.Scene) -> float:
     """Return the submerged weight of the caisson in N. Raises NotApplicable."""
     if scene.get(WEIGHT) is None:
-        raise NotApplicable(f"run.json has no {WEIGHT}")
+        raise theory.NotApplicable(f"run.json has no {WEIGHT}")
     return float(scene[WEIGHT])
 
 
@@ -163,21 +151,23 @@ def rest_of(byrne: HoulsbyByrne, weight: float, deepest: float) -> dict[str, flo
     return found
 
 
-def cone_method_of(site: Site, deepest: float) -> ConeMethod | None:
+def cone_method_of(site: theory.Site, deepest: float) -> ConeMethod | None:
     """Return Senders and Randolph from a cone, None where there is none."""
     try:
-        return senders_randolph_of(site, deepest)
-    except NotApplicable:
+        return theory.senders_randolph_of(site, deepest)
+    except theory.NotApplicable:
         return None
 
 
-def in_clay(site: Site, depth: np.ndarray, why_not: str) -> Answers:
+def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
     """Return what the method of clay says at embedments [n]. why_not: of the others."""
-    answer, plug = answer_of(OF_CLAY, site, depth), plug_limits(site, depth)
+    answer, plug = theory.answer_of(theory.OF_CLAY, site, depth), theory.plug_limits(
+        site, depth
+    )
     if not answer.forces or site.scene.get(WEIGHT) is None:
         return Answers(depth, why_not=why_not, plug=plug)
     weight = weight_of(site.scene)
-    area = pi / 4 * skirt_of(site).inner_diameter ** 2
+    area = pi / 4 * theory.skirt_of(site).inner_diameter ** 2
     needed = {
         case: installation.suction_without_flow(total, weight, area)
         for case, total in answer.total.cases.items()
@@ -185,25 +175,27 @@ def in_clay(site: Site, depth: np.ndarray, why_not: str) -> Answers:
     fine = np.linspace(0, float(depth.max()), 200)
     rests = {
         case: installation.rest_without_flow(fine, total, weight)
-        for case, total in answer_of(OF_CLAY, site, fine).total.cases.items()
+        for case, total in theory.answer_of(
+            theory.OF_CLAY, site, fine
+        ).total.cases.items()
     }
     return Answers(
         depth,
         rest={case: h for case, h in rests.items() if np.isfinite(h)},
         why_not=why_not,
         assumed=answer.assumed,
-        in_clay=Beside(answer.name, needed),
+        in_clay=theory.Beside(answer.name, needed),
         rest_by=answer.method.name,
         plug=plug,
     )
 
 
-def answers_of(site: Site, depth: np.ndarray) -> Answers:
+def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
     """Return what the methods say at embedments [n]."""
     deepest = float(depth.max())
     try:
-        byrne, weight = houlsby_byrne_of(site, deepest), weight_of(site.scene)
-    except NotApplicable as reason:
+        byrne, weight = theory.houlsby_byrne_of(site, deepest), weight_of(site.scene)
+    except theory.NotApplicable as reason:
         return in_clay(site, depth, str(reason))
     cone = cone_method_of(site, deepest)
     rows = [suctions_at(byrne, cone, weight, float(h)) for h in depth]

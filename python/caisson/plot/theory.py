@@ -17,12 +17,7 @@ from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
 from caisson.design import plug_stability, senders_randolph
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
-from caisson.design.houlsby_byrne import (
-    UNDISTURBED,
-    Assumptions,
-    HoulsbyByrne,
-    Layer,
-)
+from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
 from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
@@ -39,8 +34,7 @@ LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
 
 class NotApplicable(Exception):
-    """Why a method says nothing about a scene: what the method does not know, in a
-    part of a sentence."""
+    """Why a method says nothing about a scene, in a part of a sentence."""
 
 
 class Site(NamedTuple):
@@ -52,9 +46,8 @@ class Site(NamedTuple):
     is_running: bool = False  # and has left no run.json yet
 
     def layers(self, deepest: float) -> list[tuple[int, Scene]]:
-        """Return the layers that begin above a depth (m), with their numbers; a
-        layer whose numbers change with depth is several. Older files have no list of
-        layers, but what counts for the only layer."""
+        """Return the layers above a depth (m), with their numbers; a layer that changes
+        with depth is several."""
         pairs = enumerate(self.scene.get("layers", [self.scene]), 1)
         return [
             (int(e.get("layer", i)), e)
@@ -68,10 +61,9 @@ def site_of(run: Results) -> Site:
     test = of_run(run.directory)
     if not run.scene and run.is_running:
         return Site({}, cone=test, is_running=True)
-    entries = (run.summary.get("entries") or {}) if run.scene else {}
     given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
     scene = {**run.scene, "design_methods": given}
-    return Site(scene, entries.get("Water/Level", "drained"), test)
+    return Site(scene, run.entry("Water/Level") or "drained", test)
 
 
 def top_of(entry: Scene) -> float:
@@ -80,8 +72,7 @@ def top_of(entry: Scene) -> float:
 
 
 def sand_of(entry: Scene, number: int) -> Sand:
-    """Return what a cone resistance follows from in a layer of run.json. Raises
-    NotApplicable."""
+    """Return a layer as sand with a cone resistance. Raises NotApplicable."""
     density, angle = entry.get("relative_density"), entry.get("friction_angle_deg")
     if density is None and (entry.get("law") in BY_DENSITY or not angle):
         law = entry.get("law", LAWS[0])
@@ -92,9 +83,8 @@ def sand_of(entry: Scene, number: int) -> Sand:
 
 
 def layers_of(site: Site, deepest: float) -> list[Layer]:
-    """Return the layers of run.json down to a depth (m); one whose strength follows
-    from its density in pieces, with the friction angle of their middle. Raises
-    NotApplicable."""
+    """Return the layers down to a depth (m), those by density in pieces with the
+    friction angle of their middle. Raises NotApplicable."""
     found, above = list[Layer](), list[Sand]()
     entries = site.layers(deepest)
     bottoms = [top_of(entry) for _, entry in entries[1:]] + [deepest]
@@ -152,8 +142,7 @@ def skirt_of(site: Site) -> Skirt:
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
-    """Return what Houlsby and Byrne assume, by the options of the report or, in the
-    run.json of earlier versions, the scene."""
+    """Return what Houlsby and Byrne assume by the options of the report."""
     given = scene.get("design_methods") or {}
     known = {name: given[name] for name in Assumptions._fields if name in given}
     return Assumptions(
@@ -214,8 +203,7 @@ CONE_NEEDED = "a cone test is needed (--cpt FILE)"
 
 
 def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
-    """Return the cone test or, without one, what is assumed for sand down to a depth
-    (m). with_clay: none is needed there. Raises NotApplicable."""
+    """Return the cone test, or an assumed one (0 in clay). Raises NotApplicable."""
     if site.cone is not None:
         return site.cone
     sands = list[Sand]()
@@ -238,8 +226,7 @@ def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
-    """Return Houlsby and Byrne for a site, with the layers down to deepest (m). Raises
-    NotApplicable."""
+    """Return Houlsby and Byrne down to a depth (m). Raises NotApplicable."""
     skirt = skirt_of(site)
     try:
         layers = layers_of(site, deepest)
@@ -289,8 +276,7 @@ def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
 
 
 def clay_of(site: Site, deepest: float) -> Method:
-    """Return the method of clay for a site, in which there may be sand, too. Raises
-    NotApplicable."""
+    """Return the method of clay, with or without sand. Raises NotApplicable."""
     skirt, soils = skirt_of(site), {soil for _, soil in soils_of(site, deepest)}
     if "clay" not in soils:
         only(site, deepest, "clay")
@@ -301,8 +287,7 @@ def clay_of(site: Site, deepest: float) -> Method:
 
 
 def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
-    [n]; none without clay."""
+    """Return the suctions (Pa) [n] at which a plug of clay gives way, if any."""
     try:
         skirt, deepest = skirt_of(site), float(depth.max())
         soils_of(site, deepest)
@@ -365,9 +350,8 @@ OF_CLAY = METHODS[-1]
 
 @dataclass(frozen=True)
 class Beside:
-    """What a method says of one quantity over depth, beside which a run stands: its
-    lower and its upper case, and a bound below them, [n] each (N or Pa); the limit
-    beyond which no suction suffices, and whether the cases end there, by piping."""
+    """What a method says of one quantity, [n] each (N or Pa): a lower and an upper
+    case, bounds below them, a limit, and whether cases end there (piping)."""
 
     name: str
     cases: dict[str, np.ndarray]
@@ -471,8 +455,7 @@ def answers_to(site: Site, deepest: float) -> list[Answer]:
 
 
 def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
-    """Return (methods, why they say nothing), each reason once. That the method of clay
-    is not for sand, of which another one has an answer, needs no words."""
+    """Return (methods, why they say nothing), each reason once."""
     found: dict[str, list[str]] = {}
     is_sand = any(answer.forces for answer in answers if answer.method.key != "clay")
     for answer in answers:
@@ -488,9 +471,8 @@ def reasons_in_words(answers: list[Answer]) -> str:
 
 
 def about_cone(site: Site, deepest: float) -> str:
-    """Return a sentence where the cone test ends above an embedment (m), or what a
-    cone resistance that is assumed rests on; with the friction angle of sand whose
-    strength follows from its density."""
+    """Return where the cone test ends above an embedment (m), or what an assumed one
+    rests on, and the friction angle of sand by its density."""
     if site.cone is None:
         answers = answers_of(site, np.array([deepest]))
         found = [next((a.assumed for a in answers if a.assumed), "")]

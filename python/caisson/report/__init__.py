@@ -5,22 +5,19 @@ page reloads itself, and `caisson run` renews it."""
 import argparse
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
-from caisson import error_bounds
+from caisson import disk, error_bounds
+from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, draw, keep_methods
 from caisson.results import Results, ResultsError
-from caisson.disk import InputError
-from caisson import disk
 
 NAME = "report.html"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 def write(directory: Path, rate: float | None = None) -> Path:
-    """Write the report of a run, with a pump for a rate of penetration (m/h), or an
-    assumed one; return its path. Raises ResultsError."""
+    """Write the report, with a pump for a rate (m/h); return its path."""
     from caisson.report import page, verdict
     from caisson.report.installation import Rate
 
@@ -72,50 +69,38 @@ def print_pdf(path: Path) -> Path:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
     add_method_arguments(parser)
-    parser.add_argument(
-        "--jacked",
-        type=Path,
-        metavar="DIR",
-        help="the scene of a run under suction, jacked: it tells what suction leaves of"
-        " tip and friction; its history is kept as jacked.csv",
+    add = parser.add_argument
+    text = (
+        "the scene of a run under suction, jacked: it tells what suction leaves of tip"
+        " and friction; its history is kept as jacked.csv"
     )
-    parser.add_argument("directories", nargs="+", type=Path, metavar="DIR")
-    parser.add_argument(
-        "--error-bar",
-        type=Path,
-        metavar="CSV",
-        help="the error bar of the scene, by caisson error-bar; default: that beside"
-        " FILE.prm, FILE_error_bar.csv",
+    add("--jacked", type=Path, metavar="DIR", help=text)
+    add("directories", nargs="+", type=Path, metavar="DIR")
+    text = (
+        "the error bar of the scene, by caisson error-bar; default: that beside"
+        " FILE.prm, FILE_error_bar.csv"
     )
-    parser.add_argument(
-        "--rate",
-        type=float,
-        metavar="M/H",
-        help="rate of penetration that the pump is made for, in m/h; 1 is assumed",
-    )
-    parser.add_argument("--pdf", action="store_true", help="print it to report.pdf too")
+    add("--error-bar", type=Path, metavar="CSV", help=text)
+    text = "rate of penetration that the pump is made for, in m/h; 1 is assumed"
+    add("--rate", type=float, metavar="M/H", help=text)
+    add("--pdf", action="store_true", help="print it to report.pdf too")
 
 
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
     from caisson.report import relief
 
-    status = 0
-    for directory in options.directories:
-        try:
-            if keep_methods(options, directory):
-                draw(directory)
-            if options.jacked is not None:
-                relief.adopt(options.jacked, directory)
-            if options.error_bar is not None:
-                error_bounds.adopt(directory, options.error_bar)
-            if options.rate is not None and not options.rate > 0:
-                raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
-            path = write(directory, options.rate)
-            print(f"report: {path}")
-            if options.pdf:
-                print(f"report: {print_pdf(path)}")
-        except (InputError, OSError, subprocess.CalledProcessError) as error:
-            print(f"report: {error}", file=sys.stderr)
-            status = 1
-    return status
+    def write_one(directory: Path) -> None:
+        if keep_methods(options, directory):
+            draw(directory)
+        if options.jacked is not None:
+            relief.adopt(options.jacked, directory)
+        if options.error_bar is not None:
+            error_bounds.adopt(directory, options.error_bar)
+        if options.rate is not None and not options.rate > 0:
+            raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
+        print(f"report: {(path := write(directory, options.rate))}")
+        if options.pdf:
+            print(f"report: {print_pdf(path)}")
+
+    return for_each("report", options.directories, write_one)

@@ -9,20 +9,12 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
-from caisson.plot import design, suction_methods, theory
+from caisson.plot import design, forces, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
-from caisson.plot.forces import (
-    COLORS,
-    WATER_COLOR,
-    WITH_WATER,
-    column_of,
-    has_suction,
-    penetration,
-    smooth,
-)
 from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
+from caisson.table import by_rows
 from caisson.shown import Units, units_for
 from caisson.report.installation import NOTHING, Installation, texts_of
 from caisson.report.pull import PULL, is_pull, pull_parts
@@ -90,11 +82,9 @@ def own(
 
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
-    """Return the ranges of the design methods (kN) over depth (m). Only tip and total
-    by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
-    forces of jacking."""
+    """Return the design methods (kN) over depth (m); nothing with suction."""
     found: list[Curve] = []
-    if has_suction(run):
+    if forces.has_suction(run):
         return found
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
@@ -122,31 +112,33 @@ def range_curve(run: Results, column: str, name: str) -> list[Curve]:
 
 
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
-    """Return the forces (kN) over depth (m) with their error bars and the range of
-    Houlsby & Byrne."""
+    """Return the forces (kN) over depth (m) with error bars and methods."""
     history, depth = run.history, run.history["penetration_m"]
     found = []
-    for name, color in COLORS.items():
-        bar = error_band(run.error_bounds, column_of(name).removesuffix("_N"), "N")
+    for name, color in forces.COLORS.items():
+        bar = error_band(
+            run.error_bounds, forces.column_of(name).removesuffix("_N"), "N"
+        )
         if bar is not None:
             at, low, high = down_to(end, *bar)
             label = f"{name}, error bar"
             found.append(band(label, color, low / 1e3, high / 1e3, at))
     found += method_curves(run, max(depth.max(), 0))
-    found += range_curve(run, column_of("total"), "total")
-    for name, color in COLORS.items():
-        if column_of(name) in history:
-            force = smooth(depth, history[column_of(name)])
+    found += range_curve(run, forces.column_of("total"), "total")
+    for name, color in forces.COLORS.items():
+        if forces.column_of(name) in history:
+            force = forces.smooth(depth, history[forces.column_of(name)])
             found += own(name, color, force, depth, end)
     if (total := history.get(curves.WITH_WATER)) is not None:
-        mean = smooth(depth, total)
-        found.append(line(WITH_WATER, WATER_COLOR, mean, depth, thick=True))
+        mean = forces.smooth(depth, total)
+        found.append(
+            line(forces.WITH_WATER, forces.WATER_COLOR, mean, depth, thick=True)
+        )
     return found
 
 
 def method_suctions(run: Results) -> list[Curve]:
-    """Return the required and the other critical suctions of the methods (kPa) over
-    depth."""
+    """Return the suctions of the methods (kPa) over depth."""
     site, depth = theory.site_of(run), design.depths_of(run.history)
     answers = suction_methods.answers_of(site, depth)
     found = []
@@ -165,8 +157,7 @@ def method_suctions(run: Results) -> list[Curve]:
 
 
 def limit_curves(found: Installation, bottom: float) -> list[Curve]:
-    """Return the limits of the suction, the least of them where suction is needed, and
-    where the caisson rests; the depth of the lid where it is above a bottom (m)."""
+    """Return limits of the suction and marks of rest and lid above a bottom (m)."""
     most, depth = float(found.required.max()), found.depth
 
     def across(label: str, color: str, place: float) -> Curve:
@@ -205,8 +196,7 @@ def axis_end(shown: list[Curve]) -> float:
 
 
 def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
-    """Return which limits are beyond the axis of the curves, or are none, and the depth
-    of the lid where it is below a bottom (m), in sentences."""
+    """Return limits beyond the axis or absent, and the lid below a bottom (m)."""
     words, end = [], axis_end(shown)
     factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
     for name, values in found.limits.items():
@@ -251,8 +241,7 @@ def with_points(found: list[Curve]) -> list[Curve]:
 
 
 def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
-    """Return an interactive figure in the units of a run; that of its depths is its
-    key depth, and a rise is in mm anyway."""
+    """Return an interactive figure in the units of a run; a rise is in mm."""
     is_pull = bool(figure.get("upward"))
     across = shown.factor_of(figure["axis"])
     down = 1.0 if is_pull else shown.factor("m")
@@ -290,10 +279,9 @@ def pull_figure(run: Results) -> dict[str, Any]:
 def figures_of(
     run: Results, found: Installation | None, end: float | None = None
 ) -> list[dict[str, Any]]:
-    """Return the interactive figures: id, title, axis, note and curves that have
-    points; the suction, where there is any, before the forces. end: the depth where
-    suction ends (m)."""
-    if penetration(run.history) is None:
+    """Return the interactive figures: id, title, axis, note and curves, the suction
+    before the forces. end: the depth where suction ends (m)."""
+    if forces.penetration(run.history) is None:
         return []
     if is_pull(run):
         return [in_units(pull_figure(run), run.shown)]
@@ -332,7 +320,7 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     """
     history, scene = run.history, run.scene
     nothing: dict[str, Any] = {"heads": [], "rows": []}
-    if penetration(history) is None or not scene.get("wall_thickness_m"):
+    if forces.penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
     way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
@@ -357,9 +345,9 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     stress = 1e3 * max(float(np.abs(x).max()) for x in list(columns.values())[1:])
     of_length = run.shown.smaller & {"m"}
     shown = Units(units_for(np.inf, stress, np.inf).smaller | of_length)
-    texts = [texts_of(shown.factor_of(head) * x) for head, x in columns.items()]
-    heads = [shown.named(head) for head in columns]
-    return {"heads": heads, "rows": [list(row) for row in zip(*texts)]}
+    return by_rows(
+        {shown.named(h): texts_of(shown.factor_of(h) * x) for h, x in columns.items()}
+    )
 
 
 def averaged(run: Results) -> str:
@@ -389,7 +377,7 @@ def remarks_on_numbers(run: Results) -> list[str]:
                 f"Heave and room below the lid are not reliable: {share:.2g} % of the"
                 " volume that the plug gained is unaccounted for."
             )
-    if "total_force_N" in history and penetration(history) is not None:
+    if "total_force_N" in history and forces.penetration(history) is not None:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:
             rough = 100 * curves.roughness(depth, history["total_force_N"])

@@ -13,18 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import (
-    DEPTH,
-    GRADIENT,
-    at_depths,
-    rest_of_run,
-    sinks_on,
-)
+from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run, sinks_on
 from caisson.paths import INSTALLED
 from caisson.plot import design, limits
 from caisson.plot.forces import penetration
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
+from caisson.table import by_rows
 from caisson.shown import USUAL, Units
 from caisson.report.scene import plug_area
 
@@ -65,8 +60,7 @@ class Bounds(NamedTuple):
 
 @dataclass
 class Installation:
-    """Columns [n] at depths [n] (m) of the way down: forces in kN, suctions in kPa;
-    those of suction are empty in a jacked run."""
+    """Columns [n] at depths [n] (m): forces in kN, suctions in kPa or empty."""
 
     depth: np.ndarray
     forces: dict[str, np.ndarray]
@@ -104,8 +98,7 @@ class Installation:
 
     @property
     def utilization(self) -> np.ndarray:
-        """The required suction over the allowable one, [n]; where none is allowed
-        infinite, or nan if none is required either."""
+        """The required suction over the allowable one, [n]; inf or nan over 0."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(self.required / self.allowable)
 
@@ -119,8 +112,7 @@ class Installation:
 
 
 def needs_suction(run: Results) -> bool:
-    """Return whether the weight of a caisson does not suffice at any depth of the
-    tables; False without suction."""
+    """Return whether the weight does not suffice at a depth of the tables."""
     required = at_depths(run).get(design.SUCTION, np.empty(0))
     return bool((required > 1e3 * NOTHING).any())
 
@@ -150,8 +142,7 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
 def installation_of(
     run: Results, rate: Rate, at: np.ndarray | None = None
 ) -> Installation | None:
-    """Return the installation at depths [n] (m), or those of the tables; None for a run
-    that does not go down."""
+    """Return the installation at depths [n] (m); None without a way down."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return None
@@ -196,12 +187,10 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
 
 
 def way_to_an_error(run: Results) -> str:
-    """Return the command that computes the error bar of a scene, for the error of its
-    mesh where the title says that."""
-    known = run.summary if run.scene else {}
-    said = re.search(r"error of about (\d+) ?%", str(known.get("title", "")))
+    """Return the command that computes the error bar of a scene."""
+    said = re.search(r"error of about (\d+) ?%", str(run.known.get("title", "")))
     command = "caisson run" if INSTALLED else "scripts/run"
-    scene = known.get("scene_file") or "FILE.prm"
+    scene = run.known.get("scene_file") or "FILE.prm"
     return f"{command} --error {said[1] if said else 10}% {scene}"
 
 
@@ -228,8 +217,7 @@ def bar_in_words(run: Results, found: Installation) -> str:
 def in_range(
     found: Installation, values: np.ndarray, bounds: Bounds | None, unit: str
 ) -> list[str]:
-    """Return values [n] in the unit shown, with their bounds where they have any:
-    about, below the end of these."""
+    """Return values [n] in the unit shown, with bounds where they have any."""
     texts = [text_of(found.shown.factor(unit) * float(value)) for value in values]
     bars = [bar_at(found, bounds, i, unit) for i in range(len(values))]
     return [f"{t} ({b.rpartition(' ')[0]})" if b else t for t, b in zip(texts, bars)]
@@ -238,7 +226,7 @@ def in_range(
 def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
     """Return heads and rows of columns that are not empty."""
     known = {head: texts for head, texts in columns.items() if texts}
-    return {"heads": list(known), "rows": [list(row) for row in zip(*known.values())]}
+    return by_rows(known)
 
 
 def texts_of(values: np.ndarray) -> list[str]:
@@ -251,14 +239,8 @@ def trimmed(words: str) -> str:
     return words.split()[0].rstrip("0").rstrip(".")
 
 
-def flow_head(found: Installation) -> str:
-    """Return what moves the water out of the caisson."""
-    return "pump flow" if found.has_suction else "water to vent"
-
-
 def tables_of(found: Installation) -> list[dict[str, Any]]:
-    """Return the tables of the installation, each with heads and rows of text: what it
-    takes and, with suction, what is allowed."""
+    """Return the tables of what the installation takes, and what is allowed."""
     n, shown = range(len(found.depth)), found.shown
     depth = [trimmed(shown.depth(float(depth))) for depth in found.depth]
     total = found.forces["total_force_N"]
@@ -281,7 +263,8 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
         takes[shown.named("required suction (kPa)")] = in_range(
             found, found.required, found.required_bounds, "kPa"
         )
-    takes[f"{flow_head(found)} (m³/h)"] = texts_of(found.flow)
+    head = "pump flow (m³/h)" if found.has_suction else "water to vent (m³/h)"
+    takes[head] = texts_of(found.flow)
     if not found.has_suction:
         add(takes, "plug heave (m)", found.heave)
         add(takes, "room below the lid (m)", found.room)
@@ -302,8 +285,7 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
 
 
 def rest_in_words(run: Results, rest: float) -> str:
-    """Return the penetration by weight: at most that of the start where the resistance
-    only builds up below it, within half a wall thickness."""
+    """Return the penetration by weight, or that it is at most that of the start."""
     begin = float(run.history[DEPTH][0])
     thickness = float(run.scene.get("wall_thickness_m") or 0)
     if rest - begin < thickness / 2:
@@ -427,8 +409,7 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
 
 
 def room_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the room below the lid and, from half the skirt on, where heave would use
-    it up if it went on as over the last meter."""
+    """Return the room below the lid, and where heave would use it up."""
     depth, heave, room = found.depth, found.heave, float(found.room[-1])
     shown = found.shown
     remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.design.reasons import text_of
-from caisson.report.scene import SOIL, caisson_of, end_of, entry_of, is_assumed
+from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
 from caisson.report.scene import is_sealed, readable, scale_of
 from caisson.results import Results
 
@@ -30,11 +30,7 @@ OF_LAYER = {
         "degrees",
         "Friction angle of the walls",
     ),
-    "wall_adhesion_Pa": (
-        "Adhesion of the walls",
-        "Pa",
-        "Adhesion factor of the walls",
-    ),
+    "wall_adhesion_Pa": ("Adhesion of the walls", "Pa", "Adhesion factor of the walls"),
 }
 FIRST = ("submerged_unit_weight_N_m3", "K0", "relative_density")
 # older files have no list of the numbers of a law
@@ -110,8 +106,7 @@ def layers_of(scene: Mapping[str, Any]) -> list[Layer]:
 
 
 def numbers_of(layer: Mapping[str, Any]) -> Numbers:
-    """Return value and entry of each number of a layer by its name and unit; unit
-    weight, stress and strength before the others."""
+    """Return value and entry of each number of a layer by name and unit."""
     found: Numbers = {}
 
     def add(keys: Iterable[str]) -> None:
@@ -187,7 +182,7 @@ def number_in_words(run: Results, layer: Layer, name: str, unit: str) -> str:
 
 def drainage_of(run: Results, layer: Layer) -> str:
     """Return how the pore water of a layer was computed."""
-    level = entry_of(run, "Water/Level")
+    level = run.entry("Water/Level")
     if layer.is_clay and level in ("", "drained", "seepage"):
         return "undrained (total stress)"
     return level
@@ -200,8 +195,7 @@ def kind_of(run: Results, layer: Layer) -> str:
 
 
 def drainage_of_run(run: Results) -> str:
-    """Return how the water of all layers was computed, in words: "undrained clay (total
-    stress)"; "sand drained, clay undrained (total stress)"."""
+    """Return how the water was computed: "undrained clay (total stress)"."""
     kinds = dict.fromkeys(kind_of(run, x) for x in layers_of(run.scene))
     if len(kinds) == 1:
         kind, _, how = next(iter(kinds)).partition(", ")
@@ -215,7 +209,7 @@ def drainage_of_run(run: Results) -> str:
 
 def use_of(run: Results) -> str:
     """Return what the numbers of a run are for: drainage, and how it is installed."""
-    level = entry_of(run, "Water/Level")
+    level = run.entry("Water/Level")
     if not caisson_of(run) or not level:
         return ""
     has_weight = run.scene.get("submerged_weight_N") is not None
@@ -256,8 +250,7 @@ def cell_of(run: Results, layer: Layer, name: str, unit: str) -> tuple[str, bool
 
 
 def soil_table(run: Results) -> dict[str, Any]:
-    """Return the table with a row for each layer: heads, and rows of (text, whether
-    assumed)."""
+    """Return heads and rows of (text, whether assumed), a row for each layer."""
     shown, rows = run.shown, []
     of_strength = ("Cohesion", "Friction angle", "Relative density")
     for layer in layers_of(run.scene):
@@ -277,8 +270,7 @@ def soil_table(run: Results) -> dict[str, Any]:
 
 
 def layers_table(run: Results) -> dict[str, Any]:
-    """Return the table of all numbers of the layers, a row for each and a column for
-    each layer: heads, and rows of (text, assumed)."""
+    """Return all numbers of the layers: heads, and rows of (text, assumed)."""
     layers = layers_of(run.scene)
     laws = [(str(layer.parts[0].get("law", "")), False) for layer in layers]
     rows = [[("law", False), *laws]]

@@ -12,23 +12,10 @@ from caisson.plot import design, suction_methods, theory
 from caisson.plot.forces import penetration
 from caisson.plot.suction import CRITICAL
 from caisson.results import Results
-from caisson.design import suction_installation as installation
+from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
 from caisson.design.method import Forces
-from caisson.design.reasons import (
-    ASSUMED_CONE,
-    ByCone,
-    Compared,
-    Walls,
-    cause_by_cone,
-    of_cause,
-    of_cone,
-    of_houlsby_byrne,
-    of_undisturbed,
-    ratio_in_words,
-    relieved,
-    text_of,
-)
+from caisson.table import by_rows
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
 from caisson.report.installation import needs_suction
@@ -81,14 +68,15 @@ def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
             title = f"{title}: {table['title'][0].lower()}{table['title'][1:]}"
         part = {depth: columns[depth], **part}
         if len(part) > 1:
-            rows = [list(row) for row in zip(*part.values())]
-            found.append({"title": title, "heads": list(part), "rows": rows})
+            found.append({"title": title, **by_rows(part)})
     return found
 
 
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
     """Return ratio_in_words() of each row."""
-    return [ratio_in_words(*map(float, row)) for row in zip(computed, low, high)]
+    return [
+        reasons.ratio_in_words(*map(float, row)) for row in zip(computed, low, high)
+    ]
 
 
 def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
@@ -100,18 +88,12 @@ def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str
             return shown.factor_of(head)
         return shown.factor_of(title)
 
-    texts = [
-        [
-            cell if isinstance(cell, str) else text_of(factor(head) * float(cell))
-            for cell in values
-        ]
-        for head, values in columns.items()
-    ]
-    return {
-        "title": shown.named(title),
-        "heads": [shown.named(head) for head in columns],
-        "rows": [list(row) for row in zip(*texts)],
-    }
+    def text(head: str, cell: Any) -> str:
+        is_text = isinstance(cell, str)
+        return cell if is_text else reasons.text_of(factor(head) * float(cell))
+
+    texts = {shown.named(h): [text(h, x) for x in c] for h, c in columns.items()}
+    return {"title": shown.named(title), **by_rows(texts)}
 
 
 def beside(
@@ -123,8 +105,7 @@ def beside(
     what: str = "",
     last: dict[str, Any] = {},
 ) -> dict[str, Any]:
-    """Return a table of what a run has (N or Pa), if it has this, and methods say
-    behind other columns, and last ones. what: before the names of methods."""
+    """Return a table of a run (N or Pa) beside methods, between columns and last."""
     if computed is not None:
         columns["computed"] = computed / 1e3
     for method in methods:
@@ -141,8 +122,7 @@ def beside(
 def under_suction(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[theory.Beside]:
-    """Return the resistance that methods for suction have at depths [n] under the
-    suction of the run; answers: of jacking."""
+    """Return resistances [n] of methods under the suction of the run."""
     suction = np.maximum(design.suction_at(run.history, at), 0)
     try:
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
@@ -166,7 +146,7 @@ def under_suction(
             cases = {
                 case: np.array(
                     [
-                        relieved(by_case(answer, case, i), x).total
+                        reasons.relieved(by_case(answer, case, i), x).total
                         for i, x in enumerate(left)
                     ]
                 )
@@ -177,18 +157,19 @@ def under_suction(
 
 
 def or_piping(values: np.ndarray) -> list[str]:
-    """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
-    suction exceeds its critical one."""
+    """Return suctions as text; NO_ANSWER below where a method ends."""
     known = np.flatnonzero(np.isfinite(values))
     last = int(known[-1]) if len(known) else -1
-    return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
+    return [
+        reasons.text_of(float(v)) if i <= last else NO_ANSWER
+        for i, v in enumerate(values)
+    ]
 
 
 def suction_tables(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[dict[str, Any]]:
-    """Return the tables of required and critical suctions, and of the resistance under
-    the suction of the run; answers: of jacking."""
+    """Return the tables of suctions and of the resistance under suction."""
     required = np.maximum(design.suction_at(run.history, at), 0)
     found = suction_methods.answers_of(site, at)
     critical = {
@@ -214,18 +195,23 @@ def suction_tables(
 # ------------------------------------------------------------------ why
 
 
-def compared(run: Results, h: float) -> Compared | None:
-    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
-    answer there or the run lacks a force."""
+def computed_at(run: Results, h: float) -> Forces | None:
+    """Return the forces of a run at a depth, None where it lacks one."""
+    known = design.compared_at(run.history, np.array([h]))
+    if set(known) != set(design.FORCES):
+        return None
+    return Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
+
+
+def compared(run: Results, h: float) -> reasons.Compared | None:
+    """Return the run beside Houlsby & Byrne at a depth (m), or None."""
     site, at = theory.site_of(run), np.array([h])
-    known = design.compared_at(run.history, at)
     try:
         byrne = theory.houlsby_byrne_of(site, h)
     except theory.NotApplicable:
         return None
-    if set(known) != set(design.FORCES):
+    if (computed := computed_at(run, h)) is None:
         return None
-    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     suction, flow, mine = 0.0, STILL, computed.total
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
@@ -236,14 +222,14 @@ def compared(run: Results, h: float) -> Compared | None:
         flow = installation.seepage(
             caisson, max(suction, 0.0), h, byrne.permeability_ratio
         )
-    ratio = ratio_in_words(mine, *ends) if ends else ""
+    ratio = reasons.ratio_in_words(mine, *ends) if ends else ""
     if not ratio:
         return None
     low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
     frictions = computed.outer_friction, caisson.outer_friction(h, False, flow)
     walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
-    return Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
+    return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
 
 
 def why_of(run: Results, at: np.ndarray) -> str:
@@ -253,18 +239,14 @@ def why_of(run: Results, at: np.ndarray) -> str:
     found = next((answer for answer in answers if answer), None)
     if found is None:
         return ""
-    return of_houlsby_byrne(found)
+    return reasons.of_houlsby_byrne(found)
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
-    """Return why the run is not like undisturbed ground and the methods from a cone, a
-    sentence for each that is not, at a depth; answers: of jacking, at this depth. With
-    suction only methods for suction are compared."""
-    at, history = np.array([h]), run.history
-    known = design.compared_at(history, at)
-    if set(known) != set(design.FORCES):
+    """Return a sentence for each method that the run is not like, at a depth (m)."""
+    at = np.array([h])
+    if (computed := computed_at(run, h)) is None:
         return []
-    computed = Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
     mine, what, left, suctions = computed.total, "force", None, dict[str, Any]()
     if needs_suction(run):
         mine, what = float(design.suction_at(run.history, at)[0]), "suction"
@@ -281,26 +263,28 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             force = parts[bound].total
             if suctions:
                 force = float(suctions[suction_methods.LOWER_BOUND][0])
-            found.append(of_undisturbed(h, mine, force, what))
+            found.append(reasons.of_undisturbed(h, mine, force, what))
         if left is not None and answer.method.key == "senders_randolph":
-            low, high = relieved(low, left), relieved(high, left)
+            low, high = reasons.relieved(low, left), reasons.relieved(high, left)
             cases = suction_methods.CONE_LOW, suction_methods.CONE_HIGH
             needed = [float(suctions[case][0]) for case in cases]
             ends = mine, needed[0], needed[1]
         elif answer.method.bound or left is not None or answer.method.key == "clay":
             continue
         name = answer.name
-        by_cone = ByCone(name, h, what, ends, computed, low, high, left)
-        if sentence := of_cone(by_cone):
+        by_cone = reasons.ByCone(name, h, what, ends, computed, low, high, left)
+        if sentence := reasons.of_cone(by_cone):
             sentences.append(sentence)
-            causes[of_cause(cause_by_cone(by_cone), h, walls_of(run, h))] = None
+            causes[
+                reasons.of_cause(reasons.cause_by_cone(by_cone), h, walls_of(run, h))
+            ] = None
     sentences += causes
     if any(sentences) and any(answer.assumed for answer in answers):
-        sentences.append(ASSUMED_CONE)
+        sentences.append(reasons.ASSUMED_CONE)
     return [sentence for sentence in [*found, *sentences] if sentence]
 
 
-def walls_of(run: Results, h: float) -> Walls | None:
+def walls_of(run: Results, h: float) -> reasons.Walls | None:
     """Return the stress on the walls at the frame at a depth; None without one."""
     table, scene = run.walls, run.scene
     rows = np.abs(table.get("penetration_m", np.empty(0)) - h) < AT_DEPTH
@@ -319,7 +303,7 @@ def walls_of(run: Results, h: float) -> Walls | None:
         means.append(float(np.nansum(normal * area) / below))
     passive = [math.tan(math.radians(45 + angle / 2)) ** 2 for angle in angles]
     ends = [(min(values), max(values)) for values in (at_rest, passive)]
-    return Walls(means[0], means[1], ends[0], ends[1])
+    return reasons.Walls(means[0], means[1], ends[0], ends[1])
 
 
 def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
@@ -331,10 +315,8 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 
 
 def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method, of the first table of the methods, at
-    the deepest depth with an answer of a method that is fitted to field data, without
-    an assumed cone if possible, else of the lower bound; nothing where none has an
-    answer."""
+    """Return a card with computed over method at the deepest depth with an answer: of a
+    fitted method, without an assumed cone if possible, else of the bound."""
     answers = [
         (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
         for table in found["tables"][:1]
@@ -350,9 +332,8 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
 
 
 def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
-    """Return the tables of the design methods at each meter, (methods, why they say
-    nothing), and sentences on them; nothing for a run without a way down. end: the
-    depth where suction ends (m)."""
+    """Return tables of the design methods at each meter, (methods, why they say
+    nothing), and sentences. end: where suction ends (m)."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return NOTHING

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a report: contents, pictures and scripts in one file."""
-import base64
 import json
 import re
 from pathlib import Path
@@ -8,21 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from caisson.template import template
+from caisson.template import picture_of, template
 from caisson import plot
 from caisson.plot import limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.results import Results, Table
+from caisson.results import Results
 from caisson.report import band, content, installation, layers, methods, pull
 from caisson.report import remedies, scene, sketch, verdict
 from caisson.report.installation import Installation, Rate
 
 HERE = Path(__file__).parent
 REFRESH = 20  # s, of the page of a run that has not ended
-RECENT = 0.4  # of what is done, whose steps tell those that come
-GROWTH = 0.25  # of the time of a step, over a whole run
 # name of a picture without its suffix: what it shows
 PICTURES = {
     "stress": "Vertical effective stress",
@@ -43,16 +40,14 @@ def script(name: str) -> str:
 
 
 def pictures_of(run: Results) -> list[dict[str, str]]:
-    """Return the run's pictures as data, each with what it shows; drawn where the run
-    has left none."""
+    """Return the pictures as data; drawn where the run has left none."""
     if not (run.directory / "forces.png").is_file() and not run.is_running:
         plot.draw(run.directory)
     found = []
     for name, shows in PICTURES.items():
         path = run.directory / f"{name}.png"
         if path.is_file():
-            data = base64.b64encode(path.read_bytes()).decode("ascii")
-            found.append({"name": name, "shows": shows, "data": data})
+            found.append({"name": name, "shows": shows, "data": picture_of(path)})
     return found
 
 
@@ -88,45 +83,11 @@ def steps_of(run: Results) -> str:
     return f"{run.summary['steps']} of {' to '.join(ends)} s"
 
 
-def steps_to_go(history: Table, done: float) -> float:
-    """Return how many steps a run takes still, of which a share of 1 is done: by the
-    last part of it. Steps grow with the square root of the depth, as stiffness does."""
-    share = done * history["time_s"] / history["time_s"][-1]
-    depth, step = history["penetration_m"], history["step"]
-    sinks = depth[-1] > depth[0] >= 0
-    path = np.sqrt(depth[0] + (depth[-1] - depth[0]) * share / done) if sinks else share
-    end = np.sqrt(depth[0] + (depth[-1] - depth[0]) / done) if sinks else 1.0
-    before = (1 - RECENT) * done
-    made = step[-1] - np.interp(before, share, step)
-    return float(made / (path[-1] - np.interp(before, share, path)) * (end - path[-1]))
-
-
-def remaining_of(run: Results, done: float) -> float | None:
-    """Return how long a run takes still (s), of which a share of 1 is done: by the
-    time of its steps since its first frame, as the number of points grows somewhat
-    longer; None where that is not known."""
-    history, lock = run.history, run.directory / ".lock"
-    if not lock.is_file() or not 0 < done < 1:
-        return None
-    if not {"step", "penetration_m"} <= set(history) or not history["time_s"][-1] > 0:
-        return None
-    begin = lock.stat().st_mtime - 1.0  # a restart has frames of before
-    written = [(time, files[0].stat().st_mtime) for time, files in run.frames("grid")]
-    start = next(((t, when) for t, when in written if when >= begin), None)
-    if start is None:
-        return None
-    took = (run.directory / "history.csv").stat().st_mtime - start[1]
-    made = history["step"][-1] - np.interp(start[0], history["time_s"], history["step"])
-    if made <= 0 or took <= 0:
-        return None
-    return float(took / made * steps_to_go(history, done) * (1 + GROWTH * (1 - done)))
-
-
 def progress_of(run: Results) -> tuple[float, str]:
     """Return how much of a run is done (%), and in words how long it takes still."""
-    known = run.summary.get("progress") or {} if run.scene else {}
+    known = run.known.get("progress") or {}
     done = float(known.get("fraction_done") or 0)
-    left = remaining_of(run, done) or known.get("remaining_s")
+    left = known.get("remaining_s")
     words = f"{100 * done:.0f} % done"
     return 100 * done, words + (f", about {duration(left)} left" if left else "")
 
@@ -165,8 +126,7 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
 def warnings_of(
     summary: dict[str, Any], end: float | None = None
 ) -> dict[str, list[str]]:
-    """Return the warnings by their rank, without those about what is deeper than the
-    end of suction (m); older files have no ranks, so that all count."""
+    """Return the warnings by rank, above the end of suction (m)."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     ranked = (summary.get("results") or {}).get("warnings")
     if ranked is None:
@@ -206,8 +166,7 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run that did not come to its end is good for; nothing of others,
-    and where suction ends before it."""
+    """Return what a run that ended early is good for; nothing of others."""
     depth = run.history.get("penetration_m")
     if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""
@@ -289,7 +248,7 @@ def of_installation(
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
-        "factors": limits.sources_of(found.factors, found.limits),
+        "factors": limits.sources_of(run, found.limits),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),

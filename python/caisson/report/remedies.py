@@ -15,6 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.design import shell
+from caisson.design.suction_installation import bisect
+from caisson.nature import GRAVITY
 from caisson.plot import limits, suction_methods, theory
 from caisson.report.installation import NOTHING, Installation
 from caisson.report.scene import end_of
@@ -22,7 +24,7 @@ from caisson.results import Results
 
 OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
 LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
-STEEL_WEIGHT = (7850 - 1025) * 9.81e-3  # kN/m3, in water
+STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
@@ -54,8 +56,7 @@ class Sizes(NamedTuple):
 
 
 class Planned:
-    """The caisson at a depth (m) that it does not reach; forces in kN, suctions in
-    kPa."""
+    """The caisson at a depth (m) that it does not reach; in kN and kPa."""
 
     def __init__(self, run: Results, found: Installation, depth: float) -> None:
         """found: what is feasible, whose trend goes on to the depth."""
@@ -150,29 +151,24 @@ def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None
 
 
 def reach(planned: Planned, name: str, size: float) -> float:
-    """Return the depth (m) to which the caisson goes in with another diameter or
-    wall (m)."""
+    """Return the depth (m) reached with another diameter or wall (m)."""
     run, found = planned.run, planned.found
-    low, high = float(found.depth[-1]), planned.depth
-    for _ in range(12):
-        middle = (low + high) / 2
-        enough = is_enough(Planned(run, found, middle), name, size)
-        low, high = (middle, high) if enough else (low, middle)
-    return low
+
+    def is_beyond(depth: float) -> bool:
+        return not is_enough(Planned(run, found, depth), name, size)
+
+    return bisect(is_beyond, float(found.depth[-1]), planned.depth, 12)[0]
 
 
 def weight_of(planned: Planned) -> float | None:
-    """Return the weight (kN) that suffices; None where none does, as the wall buckles
-    under it."""
+    """Return the weight (kN) that suffices, or None."""
     sizes = planned.sizes
     low, high = sizes.weight, sizes.weight + planned.required * sizes.area
     if not planned.suffices(sizes._replace(weight=high)):
         return None
-    for _ in range(30):
-        middle = (low + high) / 2
-        enough = planned.suffices(sizes._replace(weight=middle))
-        low, high = (low, middle) if enough else (middle, high)
-    return high
+    return bisect(lambda x: planned.suffices(sizes._replace(weight=x)), low, high, 30)[
+        1
+    ]
 
 
 def wall_of(planned: Planned) -> float | None:
@@ -211,8 +207,7 @@ def pump_row(planned: Planned) -> str:
 
 
 def size_row(planned: Planned, name: str, found: float | None, why: str) -> list[str]:
-    """Return the row of a diameter or a wall (m); where none suffices, why, and how
-    deep one of TRIED goes."""
+    """Return the row of a diameter or a wall (m), or how deep one would go."""
     old = planned.sizes._asdict()[name]
     factor, unit = (1e3, "mm") if name == "wall" else (1.0, "m")
     if found is not None:

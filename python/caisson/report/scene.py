@@ -60,8 +60,7 @@ def entry_with_unit(value: str, unit: str) -> str:
 
 
 def entries_of(run: Results) -> dict[str, str]:
-    """Return the entries that the scene sets, with their units; those of older files
-    have none."""
+    """Return the entries that the scene sets, with their units."""
     summary = run.summary
     units = summary.get("units", {})
     return {
@@ -71,10 +70,9 @@ def entries_of(run: Results) -> dict[str, str]:
 
 
 def mass_scaling_of(run: Results) -> str:
-    """Return the mass scaling found by an inertia tolerance, in words; nothing without
-    one, and of older files."""
+    """Return the mass scaling of an inertia tolerance, in words."""
     scaling = run.summary.get("mass_scaling")
-    tolerance = entry_of(run, "Time/Inertia tolerance")
+    tolerance = run.entry("Time/Inertia tolerance")
     if not scaling or tolerance in ("", "none"):
         return ""
     least, most = (text_of(float(f"{x:.2g}")) for x in scaling)
@@ -99,19 +97,10 @@ def is_assumed(run: Results, entry: str) -> bool:
     return entry in run.summary.get("assumed", [])
 
 
-def entry_of(run: Results, path: str) -> str:
-    """Return the value of an entry, set or default; nothing in older files."""
-    summary = run.summary if run.scene else {}
-    known = {**summary.get("defaults", {}), **summary.get("entries", {})}
-    return str(known.get(path, ""))
-
-
 def end_of(run: Results) -> float | None:
     """Return the penetration at which the scene ends (m), None where it has none."""
-    if not run.scene:
-        return None
     try:
-        return float(entry_of(run, "Time/End penetration"))
+        return float(run.entry("Time/End penetration"))
     except ValueError:
         return None
 
@@ -140,7 +129,7 @@ def caisson_of(run: Results) -> list[Item]:
         if length is not None:
             found.append(Item(name, run.shown.length(float(length))))
     for name in ("Wall steps", "Rings"):
-        if text := entry_of(run, f"{BODY}/{name}"):
+        if text := run.entry(f"{BODY}/{name}"):
             found.append(Item(f"{name} (m)", text))
     tip = math.pi / 4 * outer**2 - plug_area(scene)
     found += [
@@ -164,23 +153,22 @@ def caisson_of(run: Results) -> list[Item]:
 
 def tip_of(run: Results) -> list[Item]:
     """Return shape and friction of the tip; nothing of older files."""
-    found, shape = [], entry_of(run, f"{BODY}/Tip")
+    found, shape = [], run.entry(f"{BODY}/Tip")
     if shape:
-        slope = entry_of(run, f"{BODY}/Tip angle")
+        slope = run.entry(f"{BODY}/Tip angle")
         words = f"{shape}, {slope}°" if shape == "triangular" else shape
         entries = [f"{BODY}/Tip", f"{BODY}/Tip angle"]
         assumed = any(is_assumed(run, entry) for entry in entries)
         found.append(Item("Shape of the tip", words, assumed))
     entry = f"{BODY}/Friction angle of the tip"
-    if angle := entry_of(run, entry):
+    if angle := run.entry(entry):
         words = f"{float(angle):g}°"
         found.append(Item("Friction angle of the tip", words, is_assumed(run, entry)))
     return found
 
 
 def installation_of(run: Results) -> list[Item]:
-    """Return how the caisson is installed: its weight, the water, and the speed of
-    the computation."""
+    """Return how the caisson is installed: weight, water and speed."""
     found, weight = [], run.scene.get("submerged_weight_N")
     if weight is not None:
         entry = f"{BODY}/Submerged weight"
@@ -196,7 +184,7 @@ def installation_of(run: Results) -> list[Item]:
             continue
         if "pump" in name and is_sealed(run):
             continue
-        if value := entry_of(run, path):
+        if value := run.entry(path):
             text = entry_with_unit(value, unit)
             if path == "Time/End penetration" and end_of(run) is not None:
                 text = run.shown.length(float(value))

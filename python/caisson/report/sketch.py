@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
-from caisson.report.scene import BODY, end_of, entry_of
+from caisson.report.scene import BODY, end_of
 
 LETTER = 7.2  # pixels, the width of a letter
 WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
@@ -24,9 +24,9 @@ class Tip(NamedTuple):
 
 def tip_of(run: Results, depth: float) -> Tip:
     """Return the tip at a depth (m); that of older files is flat."""
-    if entry_of(run, f"{BODY}/Tip") != "triangular":
+    if run.entry(f"{BODY}/Tip") != "triangular":
         return Tip(depth, 0.0)
-    angle = float(entry_of(run, f"{BODY}/Tip angle") or 45)
+    angle = float(run.entry(f"{BODY}/Tip angle") or 45)
     return Tip(depth, math.tan(math.radians(angle)))
 
 
@@ -48,42 +48,39 @@ class Drawing:
         """Return the pixel of a depth."""
         return 26 + self.scale * (depth - self.top)
 
+    def add(self, tag: str, words: str = "", **attributes: str | float) -> None:
+        """Add an element; numbers are pixels."""
+        texts = {
+            name.strip("_").replace("_", "-"): x if isinstance(x, str) else f"{x:.1f}"
+            for name, x in attributes.items()
+        }
+        inside = " ".join(f'{name}="{text}"' for name, text in texts.items())
+        self.parts.append(f"<{tag} {inside}>{html.escape(words)}</{tag}>")
+
     def box(self, kind: str, left: float, top: float, right: float, low: float) -> None:
         """Add a rectangle."""
         x, y = self.x(left), self.y(top)
         width, height = self.x(right) - x, self.y(low) - y
-        self.parts.append(
-            f'<rect class="{kind}" x="{x:.1f}" y="{y:.1f}" width="{width:.1f}"'
-            f' height="{height:.1f}"/>'
-        )
+        self.add("rect", class_=kind, x=x, y=y, width=width, height=height)
 
     def wall(self, left: float, top: float, width: float, tip: Tip) -> None:
         """Add a wall with its tip, from left and down to the depth of the tip."""
-        shoulder = tip.depth - tip.slope * width / 2
-        corners = [
-            (left, top),
-            (left, shoulder),
-            (left + width / 2, tip.depth),
-            (left + width, shoulder),
-            (left + width, top),
+        shoulder, right = tip.depth - tip.slope * width / 2, left + width
+        lowest = [(left + width / 2, tip.depth)] if tip.slope else []
+        corners = [(left, top), (left, shoulder), *lowest, (right, shoulder)]
+        points = [
+            f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in [*corners, (right, top)]
         ]
-        if not tip.slope:
-            del corners[2]
-        points = " ".join(f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in corners)
-        self.parts.append(f'<polygon class="steel" points="{points}"/>')
+        self.add("polygon", class_="steel", points=" ".join(points))
 
     def line(self, kind: str, *ends: float) -> None:
         """Add a line between two pixels."""
-        x1, y1, x2, y2 = (f"{end:.1f}" for end in ends)
-        text = f'<line class="{kind}" x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"/>'
-        self.parts.append(text)
+        x1, y1, x2, y2 = ends
+        self.add("line", class_=kind, x1=x1, y1=y1, x2=x2, y2=y2)
 
     def text(self, x: float, y: float, words: str, anchor: str = "start") -> None:
         """Add a text at a pixel."""
-        self.parts.append(
-            f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">'
-            f"{html.escape(words)}</text>"
-        )
+        self.add("text", words, x=x, y=y, text_anchor=anchor)
 
     def height(self, x: float, top: float, low: float, words: str) -> None:
         """Add a dimension line of a depth range beside the pixel x."""
@@ -112,8 +109,7 @@ class Drawing:
 
 
 def about_layer(run: Results, layer: Layer, width: float) -> str:
-    """Return the most important numbers of a layer, as many as are not wider (pixels):
-    the table beside it has all."""
+    """Return the numbers of a layer that fit into a width (pixels)."""
     strength = strength_of(run, layer)
     words = [f"layer {layer.number}", strength.partition(" (")[0]]
     weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
@@ -124,8 +120,7 @@ def about_layer(run: Results, layer: Layer, width: float) -> str:
 
 
 def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
-    """Draw the layers, with their depths at the right and their numbers between the
-    walls of the caisson, where no dimension is."""
+    """Draw the layers with depths and numbers."""
     side, written = drawing.half_width, -1e9
     for i, layer in enumerate(layers_of(run.scene)):
         low = min(layer.bottom or drawing.bottom, drawing.bottom)
@@ -149,8 +144,7 @@ def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
 def draw_rings(
     drawing: Drawing, scene: Mapping[str, Any], inside: float, depth: float
 ) -> None:
-    """Draw the rings inside the wall, whose inner face is at this radius (m), with the
-    tip at a depth (m)."""
+    """Draw the rings inside the wall (radius in m) at a depth of the tip (m)."""
     number = 1
     while place := scene.get(f"ring_{number}_above_tip_m"):
         width, height = (scene[f"ring_{number}_{x}_m"] for x in ("width", "height"))
@@ -161,8 +155,7 @@ def draw_rings(
 
 
 def of_run(run: Results, depth: float, rest: float | None) -> str:
-    """Return the section with the tip at a depth (m), and where the caisson rests by
-    its weight (m); nothing for other bodies than caissons."""
+    """Return the section at a depth (m), with the rest by weight (m); or nothing."""
     scene, shown = run.scene, run.shown
     if not scene.get("diameter_m") or not scene.get("wall_thickness_m"):
         return ""

@@ -17,7 +17,7 @@ from caisson.report import installation, pull, remedies
 from caisson.plot import limits
 from caisson.plot.limits import BOILING, COMPUTED, PIPING
 from caisson.report.installation import NOTHING, Installation, Rate
-from caisson.report.scene import end_of, entry_of
+from caisson.report.scene import end_of
 from caisson.results import Results
 
 KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
@@ -40,8 +40,7 @@ class Verdict(NamedTuple):
 
 
 def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
-    """Return the depth (m) where the required suction reaches a limit [n] (kPa), and
-    the row at or below it; None where it does not."""
+    """Return the depth (m) where a limit [n] (kPa) is reached, and its row, or None."""
     beyond = (found.required >= limit) & (found.required > NOTHING)
     if not beyond.any():
         return None
@@ -53,8 +52,7 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
 
 
 def end_by_program(run: Results) -> tuple[float, str] | None:
-    """Return the depth (m) where the program itself found that suction ends, and why;
-    None where it did not."""
+    """Return depth (m) and reason where the program found an end, or None."""
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
@@ -62,8 +60,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
-    """Return the depth (m) where the required suction reaches the allowable one, and
-    why; None where it does not."""
+    """Return depth (m) and reason where the required suction is too large, or None."""
     if not found.has_suction:
         return None
     if (end := reached(found, found.allowable)) is None:
@@ -150,9 +147,7 @@ def of_force(run: Results, found: Installation) -> str:
     parts = [f"{shown.force(float(found.forces[k][-1]))}" for k in found.forces][:3]
     names = ("tip", "friction inside", "outside")
     of_which = ", ".join(f"{name} {part}" for name, part in zip(names, parts))
-    how = (
-        "Jacked" if entry_of(run, "Rigid body/Motion") in ("", "prescribed") else "Sunk"
-    )
+    how = "Jacked" if run.entry("Rigid body/Motion") in ("", "prescribed") else "Sunk"
     force, effective = total, ""
     if len(found.with_water):
         force, effective = (
@@ -223,8 +218,7 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
 
 
 def keep(run: Results) -> str:
-    """Write the verdict of a run that has ended into its run.json, with the depth where
-    suction ends and the limits over depth; return it."""
+    """Write verdict, end of suction and limits into run.json; return the verdict."""
     found, path = verdict_of(run), run.directory / "run.json"
     if run.is_running or not found.text:
         return found.text

@@ -36,35 +36,15 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from caisson import density_law
+from caisson import density_law, disk
 from caisson.band import member_of
-from caisson.design import cone_texts
+from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
-from caisson.suggest import band, clay, cone, sand
+from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.sizes import (
-    DEFAULT_ROW,
-    LEVELS,
-    Body,
-    frames_of,
-    mesh_of,
-    start_of,
-    to_two_digits,
-)
 from caisson.suggest.soil import CAM_CLAY, layers_of
-from caisson.suggest.walls import (
-    angle_entry,
-    angle_of,
-    is_by_density,
-    is_clay,
-    is_quick_clay,
-    wall_friction_of,
-    with_walls,
-)
-from caisson import disk
-from caisson.design import cone_file, cone_options, interpretation
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -84,18 +64,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="the scene to write, a .prm file")
     add_caisson_arguments(parser, required=True)
-    add(
-        "--layer",
-        action="append",
-        metavar='"TOP: ENTRY = VALUE, ..."',
-        help="a layer of soil; give one option for each, from the surface down",
-    )
-    add(
-        "--cpt",
-        type=Path,
-        metavar="FILE",
-        help="a cone test that gives the layers, in place of --layer",
-    )
+    text = "a layer of soil; give one option for each, from the surface down"
+    add("--layer", action="append", metavar='"TOP: ENTRY = VALUE, ..."', help=text)
+    text = "a cone test that gives the layers, in place of --layer"
+    add("--cpt", type=Path, metavar="FILE", help=text)
     add("--sand", metavar="WORD", help=f"all of it sand: {', '.join(sand.WORDS)}")
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
@@ -118,29 +90,20 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         "wall": "thickness of its wall",
     }.items():
         add(f"--{name}", type=length, required=required, metavar="M", help=what)
-    add(
-        "--wall-friction",
-        type=angle_of_friction,
-        metavar="DEGREES",
-        help="of sand, on both sides",
-    )
+    text = "of sand, on both sides"
+    add("--wall-friction", type=angle_of_friction, metavar="DEGREES", help=text)
     add("--penetration", type=length, metavar="M", help="where the run ends")
     text = "where it begins (default: at 6 %% of the skirt)"
     add("--embedment", type=number("m"), metavar="M", help=text)
-    add(
-        "--weight",
-        type=number("N"),
-        metavar="N",
-        help="in water; the rest takes suction",
-    )
+    text = "in water; the rest takes suction"
+    add("--weight", type=number("N"), metavar="N", help=text)
     add("--water-depth", type=number("m"), metavar="M", help="bounds the suction")
-    add(
-        "--law",
-        choices=(*sand.LAWS, sand.ONE_ANGLE),
-        help="of sand given by its density or a cone test: by density and stress"
-        " (default), hypoplastic, or with one friction angle (cone test only)",
+    text = (
+        "of sand given by its density or a cone test: by density and stress (default),"
+        " hypoplastic, or with one friction angle (cone test only)"
     )
-    add("--error", type=percent, choices=LEVELS, default=10, help="wanted, in %%")
+    add("--law", choices=(*sand.LAWS, sand.ONE_ANGLE), help=text)
+    add("--error", type=percent, choices=sizes.LEVELS, default=10, help="wanted, in %%")
 
 
 def percent(text: str) -> int:
@@ -208,21 +171,20 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
 
 
 def refuse_quick_clay(layers: Sequence[Layer]) -> None:
-    """Refuse clay with the strength of a quick test where water flows: it would flow
-    through it as through sand. Raises SuggestError."""
+    """Refuse clay with a quick strength where water flows. Raises SuggestError."""
     for i, layer in enumerate(layers, 1):
-        if is_quick_clay(layer):
+        if walls.is_quick_clay(layer):
             raise SuggestError(
-                f"layer {i}: phi = {angle_of(layer)} beside a cohesion is no drained"
-                " strength, and with --weight water would flow through it as through"
-                f" sand. Give undrained clay as su = {layer.value('Cohesion')} Pa"
+                f"layer {i}: phi = {walls.angle_of(layer)} beside a cohesion is no"
+                " drained strength, and water would flow through it as through sand."
+                f" Give undrained clay as su = {layer.value('Cohesion')} Pa"
             )
 
 
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers with a permeability, which follows the density in sand by
     density. Raises SuggestError where only some layers of sand have one."""
-    tight = [is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
+    tight = [walls.is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
     sands = [bool(x.value("Permeability")) for x, t in zip(layers, tight) if not t]
     if any(sands) and not all(sands):
         raise SuggestError(
@@ -237,7 +199,7 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     found = []
     for layer, is_tight in zip(layers, tight):
         added = [] if layer.value("Permeability") else [assumed[is_tight]]
-        if is_by_density(layer) and not layer.value(name):
+        if walls.is_by_density(layer) and not layer.value(name):
             added.append(follows)
         found.append(Layer(layer.top, [*layer.entries, *added]))
     return found
@@ -246,12 +208,11 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
 def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
-    """Return what the template takes of weight and water. Where all of the soil is
-    undrained clay no water flows, and clay with a law of effective stress keeps its
-    water. soil: the layers with all of their entries."""
+    """Return what the template takes of weight and water: in clay alone none flows.
+    soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
-    clays = list(map(is_clay, layers))
+    clays = list(map(walls.is_clay, layers))
     of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
     if all(c or e for c, e in zip(clays, of_effective_stress)):
         level = "undrained" if any(of_effective_stress) else "drained"
@@ -277,13 +238,12 @@ def flow_of(
 def begin_of(options: argparse.Namespace) -> float:
     """Return where the run begins (m)."""
     given = options.embedment
-    return start_of(options.skirt) if given is None else float(given)
+    return sizes.start_of(options.skirt) if given is None else float(given)
 
 
 def end_of(options: argparse.Namespace) -> float:
-    """Return where the run ends (m): without --penetration where there is room left
-    for the soil that rises inside."""
-    return float(options.penetration or options.skirt - start_of(options.skirt))
+    """Return where the run ends (m): as given, or with room for the plug."""
+    return float(options.penetration or options.skirt - sizes.start_of(options.skirt))
 
 
 def law_of(options: argparse.Namespace) -> str:
@@ -327,11 +287,9 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
-    """Return the text of a study with five friction angles or, of sand by its density,
-    relative densities of each layer; clay becomes stronger in step. Raises SuggestError
-    where a layer has neither."""
+    """Return a study of five angles or densities, clay in step. Raises SuggestError."""
     sands = [layer for layer in layers if not clay.is_undrained(layer)]
-    by_density = bool(sands) and all(map(is_by_density, sands))
+    by_density = bool(sands) and all(map(walls.is_by_density, sands))
     quantity = "relative density" if by_density else "friction angle"
     changes = CHANGES_OF_DENSITY if by_density else CHANGES
     follows = options.wall_friction is None and len(sands) == len(layers)
@@ -344,7 +302,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
                 entries |= strength_after(f"Soil/Layer {i}", layer, factor)
                 continue
             change_of = density_after if by_density else angle_after
-            name = density_law.DENSITY if by_density else angle_entry(layer)
+            name = density_law.DENSITY if by_density else walls.angle_entry(layer)
             numbers.append(change_of(layer, change))
             entries[f"Soil/Layer {i}/{name}"] = numbers[-1]
         if follows:
@@ -375,7 +333,7 @@ def strength_after(head: str, layer: Layer, factor: float) -> dict[str, float | 
 def angle_after(layer: Layer, change: float) -> float:
     """Return the friction angle of a layer with a change. Raises SuggestError."""
     try:
-        angle = float("" if is_clay(layer) else angle_of(layer)) + change
+        angle = float("" if walls.is_clay(layer) else walls.angle_of(layer)) + change
     except ValueError as error:
         raise SuggestError("--study: a layer has no friction angle") from error
     if not 0 < angle < 60:
@@ -392,18 +350,17 @@ def density_after(layer: Layer, change: float) -> float:
 def scene_of(
     options: argparse.Namespace, layers: Sequence[Layer], file: Path, of_band: str = ""
 ) -> str:
-    """Return the text of the scene of a file. of_band: which estimate it is, with a
-    comma before it."""
-    level = LEVELS[options.error]
-    body = Body(options.diameter, options.skirt, options.wall)
+    """Return the text of a scene. of_band: which estimate it is."""
+    level = sizes.LEVELS[options.error]
+    body = sizes.Body(options.diameter, options.skirt, options.wall)
     start, end = begin_of(options), end_of(options)
-    mesh = mesh_of(body, start, end, level, [layer.top for layer in layers])
+    mesh = sizes.mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
     smallest = body.wall / level.cells
     size = units_for(inf, inf, body.skirt)
-    ramp = to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
+    ramp = sizes.to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     deep = reached(options, layers)
-    soil = with_walls(
+    soil = walls.with_walls(
         clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
     )
     return template(HERE / "scene.prm.jinja").render(
@@ -416,23 +373,22 @@ def scene_of(
         start=start,
         end=end,
         ramp=ramp,
-        record=to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
+        record=sizes.to_two_digits(min(0.1, (end - start) / VELOCITY / LEAST_RECORDS)),
         velocity=VELOCITY,
-        wall_friction=wall_friction_of(options.wall_friction, deep),
+        wall_friction=walls.wall_friction_of(options.wall_friction, deep),
         interfaces=len(deep) > 1,
-        is_clay=all(map(is_clay, deep)),
-        smooth_tip=all(map(is_clay, deep)) or options.wall_friction == 0,
-        default_row=DEFAULT_ROW,
+        is_clay=all(map(walls.is_clay, deep)),
+        smooth_tip=all(map(walls.is_clay, deep)) or options.wall_friction == 0,
+        default_row=sizes.DEFAULT_ROW,
         directory=f"results/{file.stem}",
-        frames=frames_of(start, end),
+        frames=sizes.frames_of(start, end),
         **flow_of(options, layers, soil),
     )
 
 
 @functools.lru_cache
 def entries_of_layers() -> dict[str, str]:
-    """Return the units of all entries of a layer by their names, "" for none, as the
-    program knows them. Raises RunError."""
+    """Return the units of all entries of a layer by name. Raises RunError."""
     said = query(["--set", "Soil/Number of layers=1", "--print-parameters"])
     section = said.partition("subsection Layer 1\n")[2]
     found, remark = {}, ""
@@ -466,8 +422,7 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
 
 
 def said_of(text: str, file: Path, copy: Path, said: str) -> str:
-    """Return what the program says of a refused scene, of which no file is left: its
-    lines in the place of their numbers."""
+    """Return what the program says of a refused scene, with its lines."""
     lines = text.splitlines()
 
     def line(match: re.Match[str]) -> str:
@@ -478,8 +433,7 @@ def said_of(text: str, file: Path, copy: Path, said: str) -> str:
 
 
 def cost_of(file: Path, text: str) -> str:
-    """Return what the program says of a scene, which is going to be this file, and of
-    its cost. Raises SuggestError where it refuses it."""
+    """Return what the program says of a scene and its cost. Raises SuggestError."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, file.name)
         copy.write_text(text, encoding="utf-8")
@@ -509,9 +463,8 @@ def ends_of(
 
 
 def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
-    """Write the scene, those of these estimates, and the study if there is to be one;
-    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
-    """
+    """Write the scene, those of estimates, and a study; say the cost. Raises
+    SuggestError, RunError, InputError or OSError."""
     check(options, estimates)
     found = None
     known = {} if options.cpt else entries_of_layers()
@@ -527,7 +480,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
         for layer in layers:
             if layer.warning:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
-        if options.law and not any(map(is_by_density, layers)):
+        if options.law and not any(map(walls.is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
     texts = {options.file: scene_of(options, layers, options.file)}
     ends = ends_of(options, layers, known, found) if estimates else {}

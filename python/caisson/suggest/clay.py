@@ -23,17 +23,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson import density_law as names
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
 from caisson.design.cone_estimates import CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY
 from caisson.design.expression import value_at
-from caisson.design.ground import (
-    CONE_FACTOR,
-    GRAVITY,
-    WATER,
-    porosity_of,
-    unit_weight_of,
-)
+from caisson.design import ground
 
 POISSON = "0.45"  # hardly any change of volume, as without drainage
 ADHESION_FACTOR = "0.5"
@@ -41,7 +36,6 @@ MODULUS_REMARK = f"{ASSUMPTION}: {CLAY_RATIOS[1]:g} s_u (Duncan & Buchignani 197
 NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
 SINE = math.sin(math.radians(24))
 LIGHTEST = 15e3  # N/m3, of the wet clay
-GRAINS = 2650.0  # kg/m3
 MOBILIZED = 0.95  # of the strength, at most, by K0
 USUAL_WEIGHT = 9.7e3  # N/m3 in water, of a layer above whose weight is no number
 RATIO = "Overconsolidation ratio"
@@ -72,7 +66,7 @@ def number_of(layer: Layer, name: str, depth: float) -> float | None:
 
 def weight_of(layer: Layer, depth: float) -> float:
     """Return the unit weight in water (N/m3) at a depth."""
-    grains = number_of(layer, "Solid density", depth) or GRAINS
+    grains = number_of(layer, "Solid density", depth) or QUARTZ_DENSITY
     porosity = number_of(layer, "Porosity", depth)
     void_ratio = number_of(layer, "Void ratio", depth)
     density = number_of(layer, names.DENSITY, depth)
@@ -89,15 +83,14 @@ def weight_of(layer: Layer, depth: float) -> float:
 
 def wet_weight_of(strength: float, total_stress: float) -> float:
     """Return the unit weight of wet clay (N/m3)."""
-    tip = np.array([CONE_FACTOR * strength + total_stress])
+    tip = np.array([ground.CONE_FACTOR * strength + total_stress])
     friction = np.array([float(ADHESION_FACTOR) * strength])
-    return max(float(unit_weight_of(tip, friction)[0]), LIGHTEST)
+    return max(float(ground.unit_weight_of(tip, friction)[0]), LIGHTEST)
 
 
 @dataclass(frozen=True)
 class Reach:
-    """Where a layer counts: depths of its top, of the middle of what the skirt reaches,
-    and of its bottom (m); above: sigma'_v at its top (Pa)."""
+    """Depths (m) of a layer: top, middle of the reach, bottom; above: sigma'_v (Pa)."""
 
     top: float
     middle: float
@@ -123,8 +116,8 @@ def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]
         stress = reach.stress(reach.middle, weight)
         strength = strength_of(layer, reach.middle, stress)
         weight = wet_weight_of(strength, stress + WATER * reach.middle) - WATER
-    grains = number_of(layer, "Solid density", reach.middle) or GRAINS
-    porosity = porosity_of(weight / 1e3, grains, False)
+    grains = number_of(layer, "Solid density", reach.middle) or QUARTZ_DENSITY
+    porosity = ground.porosity_of(weight / 1e3, grains, False)
     why = f"{weight / 1e3:.2g} kN/m3 in water by s_u (Robertson & Cabal 2010)"
     return weight, [Entry("Porosity", f"{porosity:.3f}", f"{ASSUMPTION}: {why}")]
 

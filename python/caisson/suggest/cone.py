@@ -4,18 +4,12 @@ from typing import Any
 
 from caisson import density_law
 from caisson.design.cone_texts import SHOWN, text_of
+from caisson.nature import QUARTZ_DENSITY
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED, BY_STRESS
 from caisson.suggest.walls import ADHESION_OF_CLAY
-from caisson.design.cone_estimates import (
-    ENDS,
-    K0,
-    REFERENCE,
-    SOLID_DENSITY,
-    WEIGHT,
-    Estimates,
-)
+from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
 from caisson.design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
@@ -117,15 +111,12 @@ def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
 
 
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return law, strength and stiffness of a layer with one friction angle; clay, and
-    silt below the skirt, are undrained."""
+    """Return law, strength and stiffness of a layer with one angle, or of clay."""
     if e.layer.kind == SAND:
         return [
             Entry("Law", BY_STRESS),
             Entry(
-                "Friction angle",
-                number(e.values[ANGLE].best),
-                remark(found, e, ANGLE),
+                "Friction angle", number(e.values[ANGLE].best), remark(found, e, ANGLE)
             ),
             Entry("Cohesion", "0", ASSUMPTION),
             Entry(
@@ -156,13 +147,12 @@ def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
         *strength_of(found, e),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
         Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
-        Entry("Solid density", f"{SOLID_DENSITY:g}", ASSUMPTION),
+        Entry("Solid density", f"{QUARTZ_DENSITY:g}", ASSUMPTION),
     ]
 
 
 def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
-    """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
-    name of sand.LAWS or sand.ONE_ANGLE. Raises SuggestError."""
+    """Return the layers of a scene; law: of sand. Raises SuggestError."""
     refuse_silt(found, end)
     refuse_no_strength(found)
     return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
@@ -171,9 +161,8 @@ def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
 def choices_of(
     found: Interpretation, end: float, wall_friction: float | None, law: str
 ) -> dict[str, dict[str, float]]:
-    """Return the entries of the low, the best and the high estimate: density or
-    strength, and stiffness of all layers together, and the friction of the walls where
-    it follows from a friction angle."""
+    """Return the entries of low, best and high: density or strength, stiffness, and the
+    friction of walls by a friction angle."""
     choices: dict[str, dict[str, float]] = {}
     for name in ENDS:
         entries: dict[str, Any] = {}

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
+from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
 from caisson.design.correlations import MODULUS_RATIOS
 from caisson.design.density import (
@@ -38,7 +39,6 @@ ONE_ANGLE = "angle"  # the choice of a law with one friction angle, from a cone 
 SAND = "Sand"  # in place of an entry: one of WORDS
 KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
 OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
-GRAVITY, SOLID, WATER = 9.81, 2650.0, 1000.0  # m/s2, kg/m3
 OF_CONE = "2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)"
 # of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
 WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any density")
@@ -47,8 +47,7 @@ FOREIGN = ("Friction angle", "Dilatancy angle", "Cohesion", "Porosity")
 
 
 def word_of(text: str) -> str:
-    """Return a word of WORDS as it may be written: "Medium-dense sand" or "medium";
-    other texts as they are."""
+    """Return a word of WORDS of "Medium-dense sand"; other texts as they are."""
     word = " ".join(re.sub(r"[-_]", " ", text.lower()).removesuffix("sand").split())
     return "medium dense" if word == "medium" else word
 
@@ -93,8 +92,7 @@ def is_by_density(given: Mapping[str, str]) -> bool:
 
 
 def sand_of(given: Mapping[str, str], law: str) -> list[Entry]:
-    """Return the entries of a layer of sand: those given, and what is assumed. law: a
-    name of LAWS, for a layer that has none. Raises SuggestError."""
+    """Return the entries of sand: given and assumed ones. Raises SuggestError."""
     rest = dict(given)
     law = rest.pop("Law", LAWS[law])
     if law not in LAWS.values():
@@ -112,8 +110,7 @@ def sand_of(given: Mapping[str, str], law: str) -> list[Entry]:
 
 
 def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
-    """Return the entries of sand of a relative density: those known, and what is
-    assumed."""
+    """Return the entries of sand by its density: known and assumed ones."""
     by_name = {entry.name: entry for entry in known}
     limits = [
         by_name.get(name, Entry(name, f"{value:g}", OF_KARLSRUHE))
@@ -146,8 +143,7 @@ def modulus_of(angle: str) -> Entry | None:
 
 
 def at_rest(angle: str) -> list[Entry]:
-    """Return K0 for a critical angle (degrees); nothing for an expression, whose K0 the
-    program finds."""
+    """Return K0 for a critical angle (degrees); nothing for an expression."""
     try:
         k0 = 1 - math.sin(math.radians(float(angle)))
     except ValueError:
@@ -159,10 +155,9 @@ def at_rest(angle: str) -> list[Entry]:
 def numbers_of(
     law: str, density: float, void_ratio: float, given: Mapping[str, Entry]
 ) -> list[Entry]:
-    """Return what is assumed of sand of a relative density, at the start, beside the
-    entries that are given. With an overconsolidation ratio K0 is left to the program.
-    """
-    weight = (SOLID - WATER) * GRAVITY / (1 + void_ratio) / 1e3
+    """Return what is assumed of sand of a density beside given entries; with an
+    overconsolidation ratio the program finds K0."""
+    weight = (QUARTZ_DENSITY - WATER_DENSITY) * GRAVITY / (1 + void_ratio) / 1e3
     own, angle = list[Entry](), "30"  # of Karlsruhe sand
     if law == names.LAW:
         angle = f"{CRITICAL_ANGLE:g}"
@@ -194,7 +189,7 @@ def numbers_of(
         *([] if "Overconsolidation ratio" in given else at_rest(angle)),
         Entry(
             "Solid density",
-            f"{SOLID:g}",
+            f"{QUARTZ_DENSITY:g}",
             f"{ASSUMPTION}: quartz; the unit weight in water is {weight:.3g} kN/m3",
         ),
     ]

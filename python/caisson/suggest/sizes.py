@@ -77,8 +77,7 @@ def to_two_digits(value: float) -> float:
 
 
 def step_of(size: float, most: float) -> float:
-    """Return the step to which a length of a body of this size is rounded (m): the
-    power of ten below it, at most the one given."""
+    """Return the step of lengths of this size (m): a power of ten, at most as given."""
     return float(min(most, 10.0 ** floor(log10(size) + 1e-9)))
 
 
@@ -95,9 +94,8 @@ def rounded_up(length: float, step: float) -> float:
 def zone_of(
     body: Body, start: float, cell_height: float, tops: Sequence[float]
 ) -> float:
-    """Return the height of the moving zone below the tip. Where it would end close to
-    the top of a layer it ends there: the boundary of a layer is a line of the mesh, and
-    a row between the two would be thin, which costs points and a short step."""
+    """Return the height of the moving zone below the tip. Close to the top of a layer
+    it ends there, as a thin row between would cost points and steps."""
     d = body.diameter
     zone = to_two_digits(max(d / 4, min(1.0, d / 2)))
     for top in tops:

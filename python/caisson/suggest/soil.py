@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 from caisson import density_law as names
+from caisson.nature import QUARTZ_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest import clay, sand
 from caisson.design import expression, quantity
@@ -21,7 +22,7 @@ ASSUMED = {
     "Dilatancy angle": "0",
     "Cohesion": "0",
     "Porosity": "0.4",
-    "Solid density": "2650",
+    "Solid density": f"{QUARTZ_DENSITY:g}",
 }
 NEEDED = ("Friction angle", "Youngs modulus")
 # what is not assumed, by what is given in its place
@@ -140,7 +141,9 @@ def value_of(
     unit = (known | UNITS_OF_DERIVED).get(name, "")
     try:
         value = expression.without_unit(text, unit, symbols if unit == "Pa" else {})
-        if name in UNITS_OF_DERIVED and not expression.gives_unit(text):
+        if name in UNITS_OF_DERIVED and not any(
+            map(expression.has_unit, expression.tokens_of(text))
+        ):
             number, of_it = ("8.5", "kN/m3") if name == WEIGHT else ("20", "kPa")
             is_number = re.fullmatch(quantity.NUMBER, text)
             example = number if is_number else f"({text})"
@@ -166,8 +169,7 @@ def hint_for(part: str) -> str:
 
 
 def pair_of(part: str) -> tuple[str, str]:
-    """Return the words around the equals sign. Sand may be named by its state alone.
-    Raises SuggestError."""
+    """Return the words around the equals sign, or a state. Raises SuggestError."""
     word, equals, value = map(str.strip, part.partition("="))
     if not equals and sand.word_of(part) in sand.WORDS:
         return sand.SAND, part
@@ -179,9 +181,8 @@ def pair_of(part: str) -> tuple[str, str]:
 
 
 def texts_in(text: str, known: Mapping[str, str], law: str = "") -> dict[str, str]:
-    """Return what is given of a layer as it is written, by names of entries. law: of
-    the layer whose entries these change, "" for a layer of its own. Raises
-    SuggestError."""
+    """Return what is given of a layer, by names of entries. law: of the layer that it
+    changes, "" for a layer of its own. Raises SuggestError."""
     found = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
     law = law_named(found[1].strip()) if found else law or MOHR_COULOMB
     texts: dict[str, str] = {}
@@ -243,8 +244,7 @@ def as_given(_: float, texts: dict[str, str]) -> Given:
 def layer_of(
     text: str, known: Mapping[str, str], law: str, change: Change = as_given
 ) -> Layer:
-    """Return a layer. known: the units of all entries of a layer by their names; law:
-    of sand by its density, a name of sand.LAWS. Raises SuggestError."""
+    """Return a layer; known: units of entries, law: of sand. Raises SuggestError."""
     top, rest = head_of(text)
     texts, factors = change(top, texts_in(rest, known))
     given = values_in(texts, known, factors)
@@ -285,8 +285,7 @@ def is_clay_by_angle(given: Mapping[str, str]) -> bool:
 
 
 def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
-    """Return the entries of clay with an undrained strength (Pa), beside those given.
-    Raises SuggestError."""
+    """Return the entries of undrained clay beside others. Raises SuggestError."""
     if wrong := [name for name in ("Friction angle", "Cohesion") if name in given]:
         raise SuggestError(
             f"--layer: {STRENGTH} is the strength of undrained clay, which has no"
@@ -307,8 +306,7 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
 
 
 def doubt_of(weight: str, given: Mapping[str, str]) -> str:
-    """Return a warning where a unit weight (kN/m3) may be that in water or that of the
-    wet soil, else nothing."""
+    """Return a warning where a unit weight (kN/m3) has two meanings."""
     value = float(weight)
     if not DOUBTFUL[0] <= value <= DOUBTFUL[1]:
         return ""
@@ -325,8 +323,7 @@ def doubt_of(weight: str, given: Mapping[str, str]) -> str:
 
 
 def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
-    """Return the porosity that a unit weight (kN/m3) stands for, with the density of
-    the grains. Raises SuggestError."""
+    """Return the porosity of a unit weight (kN/m3). Raises SuggestError."""
     if wrong := [name for name in ("Porosity", *REPLACED) if name in given]:
         raise SuggestError(f"--layer: give {WEIGHT} or {', '.join(wrong)}, not both")
     solid = given.get("Solid density", ASSUMED["Solid density"])
@@ -349,8 +346,7 @@ def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
 
 
 def entries_of(given: dict[str, str], text: str) -> list[Entry]:
-    """Return the entries given and those assumed. Raises SuggestError where one is
-    missing that cannot be assumed."""
+    """Return entries given and assumed. Raises SuggestError if one is missing."""
     is_plain = (law := given.get("Law", MOHR_COULOMB)).startswith(MOHR_COULOMB)
     if not is_plain and law not in LAWS:
         return [Entry(*pair) for pair in given.items()]
@@ -379,13 +375,9 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
 
 
 def layers_of(
-    texts: Iterable[str],
-    known: Mapping[str, str],
-    law: str,
-    change: Change = as_given,
+    texts: Iterable[str], known: Mapping[str, str], law: str, change: Change = as_given
 ) -> list[Layer]:
-    """Return all layers. law: of sand by its density; change: what is given of each of
-    them, before it is read. Raises SuggestError."""
+    """Return all layers; change: made to each before. Raises SuggestError."""
     layers = [layer_of(text, known, law, change) for text in texts]
     tops = [layer.top for layer in layers]
     if tops[:1] != [0.0]:

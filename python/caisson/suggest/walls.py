@@ -39,8 +39,7 @@ def is_clay(layer: Layer) -> bool:
 
 
 def is_quick_clay(layer: Layer) -> bool:
-    """Return whether strength is that of clay in a quick test, a cohesion with a small
-    angle: drained soil has a larger one."""
+    """Return whether strength is that of clay in a quick test."""
     try:
         angle, cohesion = float(angle_of(layer)), layer.value("Cohesion")
     except ValueError:
@@ -49,8 +48,7 @@ def is_quick_clay(layer: Layer) -> bool:
 
 
 def friction_of(layer: Layer) -> Entry:
-    """Return the friction angle between the walls and a layer. Raises SuggestError
-    where the soil has no angle."""
+    """Return the friction angle of walls in a layer. Raises SuggestError."""
     if is_clay(layer):
         return Entry(FRICTION, "0", " # clay adheres")
     if is_by_density(layer):
@@ -73,15 +71,13 @@ def without_friction(layers: Sequence[Layer]) -> list[Layer]:
 
 
 def have_own(layers: Sequence[Layer]) -> bool:
-    """Return whether each layer needs a wall friction of its own: clay adheres and
-    sand rubs, or an angle changes with depth."""
+    """Return whether layers need a wall friction each."""
     values = [friction_of(layer).value for layer in without_friction(layers)]
     return len({value == "0" for value in values}) > 1 or any("*" in v for v in values)
 
 
 def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
-    """Return the friction angle of the walls where a layer has none of its own. given:
-    that of sand. Raises SuggestError."""
+    """Return the wall friction where a layer has none. Raises SuggestError."""
     layers = without_friction(layers)
     if given and layers and all(map(is_clay, layers)):
         raise SuggestError(
@@ -102,9 +98,8 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
 def with_walls(
     layers: Sequence[Layer], given: float | None, reached: Sequence[Layer]
 ) -> list[Layer]:
-    """Return the layers with the friction angle and the adhesion factor of the walls
-    that they need beside those of the body. reached: by the skirt; given: the friction
-    angle of sand, with 0 of all soil. Raises SuggestError."""
+    """Return the layers with friction and adhesion of walls that they need. reached: by
+    the skirt; given: friction of sand, 0: of all. Raises SuggestError."""
     if given == 0:
         return list(layers)
     own = have_own(reached) if given is None else False
