@@ -351,10 +351,15 @@ def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
 
 
 def execute(
-    shares: Sequence[Share], again: bool = False, time_limit: float | None = None
+    shares: Sequence[Share],
+    again: bool = False,
+    time_limit: float | None = None,
+    needs_all: bool = False,
 ) -> None:
-    """Run all that are not complete, share by share, the longest first, behind a bar. A
-    run that cannot be made says why in its trouble."""
+    """Run all that are not complete, share by share, in each of them the longest first.
+    A run that cannot be made says why in its trouble; if all are needed, none begins
+    after it. A bar, or in a log file a line now and then, shows how far all of them
+    are."""
     sorted_shares = [(longest_first(runs), n, ranks) for runs, n, ranks in shares]
     ordered = [run for runs, _, _ in sorted_shares for run in runs]
 
@@ -364,6 +369,8 @@ def execute(
 
     def one(number: int, ranks: int | None) -> None:
         run = ordered[number]
+        if needs_all and any(other.trouble for other in ordered):
+            return
         progress.start(number)
         try:
             run.execute(again, time_limit, ranks, progress.say)

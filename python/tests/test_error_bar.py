@@ -17,7 +17,7 @@ from caisson import curves, error_bounds
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
-from caisson.study import Options, Reader, Study, StudyError
+from caisson.study import Options, Reader, Study, StudyError, execute
 from caisson.error import command, error_bar, windows
 from caisson.error.mesh_error import mesh_error
 from lab import verification
@@ -238,12 +238,17 @@ class Plan(unittest.TestCase):
     """The meshes that a budget allows."""
 
     def test_refinements(self) -> None:
-        """Cells across the wall are even, and at least two."""
-        found = command.refinements(4, even=True)
-        self.assertEqual(found[:5], [0.5, 1.0, 1.5, 2.0, 3.0])
-        self.assertEqual(command.refinements(2, even=True)[:3], [1.0, 2.0, 3.0])
-        self.assertEqual(command.refinements(1, even=False)[:3], [1.0, 2.0, 3.0])
-        self.assertEqual(command.refinements(0, even=False)[:3], [0.5, 0.75, 1.0])
+        """Cells across the wall are even, and at least as many as is said."""
+        for cells, even, least, first in (
+            (4, True, 2, [0.5, 1.0, 1.5, 2.0, 3.0]),
+            (2, True, 1, [1.0, 2.0, 3.0]),
+            (2, False, 1, [0.5, 1.0, 1.5, 2.0]),
+            (2, False, 2, [1.0, 1.5, 2.0, 3.0]),
+            (1, False, 2, [1.0, 2.0, 3.0]),
+            (0, False, 2, [0.5, 0.75, 1.0]),
+        ):
+            found = command.refinements(cells, even, least)
+            self.assertEqual(found[: len(first)], first)
 
     def test_budget(self) -> None:
         """The mesh of the scene, then all coarser ones, then finer ones while the cube
@@ -254,6 +259,23 @@ class Plan(unittest.TestCase):
             self.assertEqual(chosen, meshes[:number])
         chosen = command.chosen_meshes([1.0, 2.0], 100.0, 300.0, changes)
         self.assertEqual(chosen, [1.0])
+
+    def test_choice(self) -> None:
+        """Meshes with two cells across the wall and more; with one where the budget
+        allows no second one else, and then rather three meshes than many windows."""
+        plan = command.Plan.__new__(command.Plan)
+        plan.size, plan.entries = Size(1000, 100.0, 100.0), Windows.THIN
+        meshes = {1: [0.5, 1.0, 2.0], 2: [1.0, 2.0]}
+        plan.meshes = meshes.__getitem__  # type: ignore[method-assign]
+        for budget, chosen, number in (
+            (200.0, [1.0, 2.0], 4),
+            (70.0, [1.0, 2.0], 1),
+            (50.0, [0.5, 1.0, 2.0], 1),
+            (20.0, [0.5, 1.0], 4),
+        ):
+            plan.budget = budget
+            plan.choose(windows.NUMBERS)
+            self.assertEqual((plan.chosen, len(plan.windows)), (chosen, number))
 
     def test_scenes_without_other_meshes(self) -> None:
         entries = {"Installation/Directory": "", "Time/Time step": "auto"}
@@ -283,6 +305,17 @@ class Plan(unittest.TestCase):
             self.assertEqual(plan.size_of_scene().seconds, 6)
             (plan.results / command.SIZE).write_text("[", encoding="utf-8")
             self.assertEqual(plan.size_of_scene().seconds, 7)
+
+    def test_failed_run(self) -> None:
+        """None begins after it, as the bar needs all of them."""
+        runs = [unittest.mock.Mock(trouble=None, duration=9 - i) for i in range(3)]
+        runs[1].run.execute.side_effect = RunError("a window ended early")
+        for run in runs:
+            run.execute.side_effect = run.run.execute
+        with contextlib.redirect_stdout(io.StringIO()):
+            execute([(runs, 1, None)], needs_all=True)
+        self.assertIn("a window ended early", runs[1].trouble)
+        self.assertEqual([run.execute.called for run in runs], [True, True, False])
 
     def test_caution_with_suction(self) -> None:
         """Windows do not see what it has done to the soil."""
@@ -347,12 +380,14 @@ class Windows(unittest.TestCase):
     }
 
     def test_choice(self) -> None:
-        """At four depths, the last of them the end; none where they are no shorter
+        """At four depths, the last of them the end, or in the middle; none where they are no shorter
         than the way, without a wall, or without a known speed."""
         found = windows.windows_of(self.THIN, 4)
         depths = [window.depth for window in found]
         np.testing.assert_allclose(depths, [2.25, 4, 5.75, 7.5])
-        np.testing.assert_allclose(found[0].length, 0.36)
+        np.testing.assert_allclose(found[0].length, 0.3)
+        (single,) = windows.windows_of(self.THIN, 1)
+        self.assertEqual(single.depth, 4)
         for other in (
             {"Rigid body/Wall thickness": "0.2"},
             {"Rigid body/Kind": "box"},
@@ -368,12 +403,12 @@ class Windows(unittest.TestCase):
         of the way over a third of the radius, at least 0.15, to both of them."""
         (window, *_) = windows.windows_of(self.THIN, 2)
         changed = window.entries(self.THIN)
-        share = 0.3 / (4 / 3)
+        share = 0.25 / (4 / 3)
         self.assertAlmostEqual(changed["Time/Inertia tolerance"], 0.8 / share)
         short = windows.Window(2.0, 2.12).entries(self.THIN)
         self.assertAlmostEqual(short["Time/Inertia tolerance"], 0.8 / 0.15)
         wide = window.entries({**self.THIN, "Rigid body/Outer diameter": "40"})
-        ratio = (4 - 0.06 - 0.5) / (20 / 3) / 0.15
+        ratio = (4 - 0.05 - 0.5) / (20 / 3) / 0.15
         self.assertAlmostEqual(wide["Time/Inertia tolerance"], 0.8 * ratio)
 
     def test_history(self) -> None:

@@ -34,7 +34,7 @@ UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
 SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
-CELLS = [2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
+CELLS = [1, 2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
 PLAIN = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0]  # of a body without cells across
 QUIET = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 # runs with other numerics on the coarsest mesh, and their cost over one without
@@ -82,12 +82,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--results", type=Path, help=text)
 
 
-def refinements(cells: int, even: bool) -> list[float]:
-    """Return Grid/Refinement of bodies with so many cells across (0: none)."""
+def refinements(cells: int, even: bool, least: int) -> list[float]:
+    """Return the numbers for Grid/Refinement of a body with so many cells across its
+    wall, which must be even for a triangular tip; 0: a body without a wall. least:
+    cells across the wall of the coarsest mesh, if it is not that of the scene."""
     if not cells:
         return PLAIN
     wanted = sorted({*CELLS, cells, *(cells * n for n in (2, 3, 4))})
-    return [n / cells for n in wanted if n == cells or n >= 2 and not (even and n % 2)]
+    return [
+        n / cells for n in wanted if n == cells or n >= least and not (even and n % 2)
+    ]
 
 
 def chosen_meshes(
@@ -159,8 +163,7 @@ class Plan:
         self.check_output()
         self.size = self.size_of_scene()
         self.budget = arguments.budget or TIMES_THE_SCENE * self.size.seconds
-        known = self.meshes()
-        self.choose(known, (0,) if arguments.whole else NUMBERS)
+        known = self.choose((0,) if arguments.whole else NUMBERS)
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
@@ -170,30 +173,45 @@ class Plan:
                 " meshes then cost little."
             )
 
-    def choose(self, known: list[float], numbers: Sequence[int]) -> None:
-        """Choose windows and meshes that the budget allows, the most windows first."""
-        for number in numbers:
-            self.windows = windows_of(self.entries, number)
-            self.seconds = self.size.seconds * self.share_of_way()
-            changes = self.cost_of_changes
-            self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
-            if len(self.chosen) > 1:
-                break
+    def choose(self, numbers: Sequence[int]) -> list[float]:
+        """Choose the meshes that the budget allows and the first of these numbers of
+        windows that leaves a part of it for a second mesh. Where none does, the bar
+        has a mesh with one cell across the wall, and two others if it can. Return the
+        refinements that there are."""
+        for cells, least in ((2, 2), (1, 3), (1, 2)):
+            known = self.meshes(cells)
+            for number in numbers:
+                self.windows = windows_of(self.entries, number)
+                self.seconds = self.size.seconds * self.share_of_way()
+                changes = self.cost_of_changes
+                self.chosen = chosen_meshes(known, self.seconds, self.budget, changes)
+                if len(self.chosen) >= least:
+                    return known
+        return known
 
     def share_of_way(self) -> float:
         """Return the share of the way of the scene that a run takes."""
         if not self.windows:
             return 1.0
-        last, length = self.windows[-1].depth, self.windows[0].length
         start = float(self.entries["Rigid body/Initial penetration"])
-        return len(self.windows) * length / (last - start)
+        way = float(self.entries["Time/End penetration"]) - start
+        return len(self.windows) * self.windows[0].length / way
+
+    @property
+    def depths(self) -> list[float]:
+        """The depths (m) at which windows give a bar: where they end. That of a single
+        one holds for all of the way but its first part, which is as long as itself."""
+        if len(self.windows) != 1:
+            return [window.depth for window in self.windows]
+        start = float(self.entries["Rigid body/Initial penetration"])
+        end = float(self.entries["Time/End penetration"])
+        return [start + self.windows[0].length, end]
 
     @property
     def cost_of_changes(self) -> float:
-        """The cost of all runs with other numerics over that of one without."""
-        if not self.windows:
-            return COST_OF_CHANGES
-        return (1 + COST_OF_CHANGES) / len(self.windows)
+        """The cost of all runs with other numerics over that of one without. Windows
+        have them at one depth."""
+        return COST_OF_CHANGES / max(1, len(self.windows))
 
     def check_way(self) -> None:
         """Raise StudyError where the body is not pushed far enough."""
@@ -252,14 +270,14 @@ class Plan:
         changed = {**QUIET, **entries}
         run = Run(self.scene, changed, directory, program=self.program)
         if windows:
-            depths = [window.depth for window in self.windows]
             run = WindowedRun(
-                self.scene, changed, directory, windows, depths, self.program
+                self.scene, changed, directory, windows, self.depths, self.program
             )
         return StudyRun(self.scene.stem, name, "", "", 0, {}, run)
 
-    def meshes(self) -> list[float]:
-        """Return the refinements that fit the body and that the program accepts."""
+    def meshes(self, least: int) -> list[float]:
+        """Return the refinements that fit the body and that the program accepts; see
+        refinements()."""
         kind = self.entries["Rigid body/Kind"]
         if kind not in ("caisson", "box", "cone", "pile"):
             raise StudyError("the scene has no body that is pushed into the soil")
@@ -271,7 +289,7 @@ class Plan:
                 int(self.entries["Rigid body/Cells across the wall"]) * refined
             )
         even = kind == "caisson" and self.entries["Rigid body/Tip"] == "triangular"
-        return [r for r in refinements(cells, even) if self.fits(r, cells)]
+        return [r for r in refinements(cells, even, least) if self.fits(r, cells)]
 
     def fits(self, r: float, cells: int) -> bool:
         """Return whether a mesh can be made: the program is asked for coarse ones."""
@@ -313,14 +331,12 @@ class Plan:
         middle = len(self.windows) // 2
         one = self.windows[middle : middle + 1]
         share = 1 / max(1, len(self.windows))
-        if one:
-            of = "one window"
-            runs.append(self.run(of, self.mesh(r), one))
-            runs[-1].size = self.sized(r, share)
+        at = {"at": one[0].depth} if one else {}
         for name, (entries, factor) in changes_of(self.entries).items():
             runs.append(self.run(name, {**entries, **self.mesh(r)}, one))
             runs[-1].size = self.sized(r, COST[name] * share)
-            terms.append({"name": name, "from": of, "to": name, "factor": factor})
+            term = {"name": name, "from": of, "to": name, "factor": factor}
+            terms.append({**term, **at})
         return runs, terms
 
     def study(self) -> Study:
@@ -337,16 +353,18 @@ class Plan:
         """Run what is not complete. Raises StudyError where a run has no result."""
         self.results.mkdir(parents=True, exist_ok=True)
         self.keep_size()
-        execute(shares_of(to_do_of(runs, again), None), again)
+        execute(shares_of(to_do_of(runs, again), None), again, needs_all=True)
         if missing := [run for run in runs if not run.run.is_complete()]:
-            raise StudyError(f"{missing[0].name}: {missing[0].trouble}")
+            cause = next((run for run in missing if run.trouble), missing[0])
+            raise StudyError(f"{cause.name}: {cause.trouble}")
 
 
-def set_depths(study: Study, windows: Sequence[Window]) -> None:
-    """Set the depths of the bar: those of the windows, or of the way down without half
-    a window at both ends and the first 0.3 m."""
-    if windows:
-        first, second, last = windows[0].depth, windows[1].depth, windows[-1].depth
+def set_depths(study: Study, windowed: Sequence[float]) -> None:
+    """Set the depths of the bar: those of windows (m), or all that the run of the scene
+    passes on its way down, without half a window at both ends and without the first
+    0.3 m."""
+    if windowed:
+        first, second, *_, last = *windowed, windowed[-1]
         study.keys["depths"] = [first, last, second - first]
         return
     depth = study.run("default").results.history["penetration_m"]
@@ -363,6 +381,11 @@ def advise(plan: Plan, study: Study) -> None:
         print(
             "Suction moves soil on the way to a depth, and windows do not see this: the"
             " bar may be wrong where the flow is strong. --whole runs all of the way."
+        )
+    if len(plan.windows) == 1:
+        print(
+            "The budget allowed one window: its error stands for the whole way. More"
+            " --budget gives more windows."
         )
     if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
         print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
@@ -399,7 +422,7 @@ def main(arguments: argparse.Namespace) -> int:
             f"{plan.output} exists. Choose --output, or replace it by --overwrite"
         )
     plan.execute(study.runs, arguments.again)
-    set_depths(study, plan.windows)
+    set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
         error_bar.evaluate([study], Options(), 0)
     advise(plan, study)

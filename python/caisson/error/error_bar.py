@@ -17,6 +17,7 @@ Keys of the study beside the usual ones:
     factor = 1         extrapolates to the limit: 2 from a halved quantity on which
                        the error depends linearly, 1 from a refined one
     depths = [1, 4]    where the term counts, if not everywhere (m)
+    at = 2             the only depth at which the runs are compared, if one is (m)
 
 What the meshes make of it: caisson.error.mesh_error. The error of another term at a
 depth is
@@ -90,8 +91,9 @@ def error_of_change(
     term: dict[str, Any], study: Study, quantity: Quantity, depths: np.ndarray
 ) -> np.ndarray:
     """Return the error by a term that compares two runs at depths [n]: [n]."""
+    at = np.full_like(depths, term["at"]) if "at" in term else depths
     changed, other = [
-        values_of(study.run(term[key]), quantity, depths) for key in ("from", "to")
+        values_of(study.run(term[key]), quantity, at) for key in ("from", "to")
     ]
     difference = changed - other
     if quantity.is_relative:

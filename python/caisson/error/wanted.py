@@ -94,7 +94,7 @@ class Search:
         ]
         keys = {"errors": self.errors, "output": str(self.bar_file)}
         study = Study(plan.scene.stem, plan.scene.stem, plan.scene, runs, keys)
-        command.set_depths(study, plan.windows)
+        command.set_depths(study, plan.depths)
         return study
 
     @property

@@ -34,8 +34,8 @@ from caisson.runner import (
 )
 from caisson.error_bounds import SUCTION
 
-WIDTHS, SHARE_OF_MEAN = 12.0, 1 / 3
-NUMBERS = 4, 3, 2  # of windows, the first as a rule
+WIDTHS, SHARE_OF_MEAN = 10.0, 1 / 3
+NUMBERS = 4, 3, 2, 1  # of windows, the first as a rule
 MOST = 0.5  # of the way of the scene: else its whole way costs little more
 LEAST_WAY = 6 * curves.FORCE_WINDOW  # m: the means of two depths must not overlap
 ROWS = 20  # of history.csv in a mean
@@ -93,8 +93,10 @@ def share_of_tolerance(way: float, radius: float) -> float:
 
 
 def windows_of(scene: Entries, number: int) -> list[Window]:
-    """Return so many windows of a scene: none of a body without a wall, of another way
-    than one down at one speed, and of a short way."""
+    """Return so many windows of a scene, the last one at the end of its
+    way, or a single one in the middle: none of a body without a wall
+    or with another way than one down to a depth at one speed, and of a way that is
+    short or hardly longer than they are."""
     names = ["Rigid body/Wall thickness", "Rigid body/Velocity"]
     names += ["Rigid body/Initial penetration", "Time/End penetration"]
     try:
@@ -108,7 +110,8 @@ def windows_of(scene: Entries, number: int) -> list[Window]:
     is_long = end - start >= max(LEAST_WAY, number * length / MOST)
     if not (hollow and prescribed and is_long):
         return []
-    depths = start + (end - start) * np.arange(1, number + 1) / max(number, 1)
+    shares = np.arange(1, number + 1) / number if number > 1 else [0.5] * number
+    depths = start + (end - start) * np.array(shares)
     return [Window(float(depth) - length, float(depth)) for depth in depths]
 
 
