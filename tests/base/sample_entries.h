@@ -25,9 +25,9 @@ namespace Patterns = dealii::Patterns;
 
 
 /** Entries as the classes of the program declare them. */
-struct Soil : public ParameterAcceptor
+struct SoilEntries : public ParameterAcceptor
 {
-  Soil()
+  SoilEntries()
     : ParameterAcceptor("Soil")
   {
     add_parameter("Friction angle",
@@ -129,8 +129,8 @@ struct Method : public ParameterAcceptor
 
 
 inline ParameterOrigins
-read_text(const std::string              &text,
-          const std::vector<std::string> &overrides = {})
+read_sample(const std::string              &text,
+            const std::vector<std::string> &overrides = {})
 {
   std::ofstream("jack.prm", std::ios::binary) << text;
   return read_parameters(ParameterAcceptor::prm, "jack.prm", overrides);

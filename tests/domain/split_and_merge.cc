@@ -215,4 +215,5 @@ main(int argc, char *argv[])
   verdict("merged points depend on the order in which they came by",
           std::abs(merged_sum(true) / merged_sum(false) - 1.),
           1e-13);
+  return 0;
 }

@@ -214,4 +214,5 @@ main(int argc, char *argv[])
   check_motion();
   check_totals();
   check_balance();
+  return 0;
 }
