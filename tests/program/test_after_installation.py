@@ -1,19 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The commands of doc/how_to/after_installation.md, on a coarse mesh."""
-import os
 import re
 import shlex
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
-from program import Entries, ProgramTest
+from program import ALONE, Entries, ProgramTest, caisson
 
 from caisson.paths import ROOT
 from caisson.results import Results
-from caisson.runner import environment, set_options
+from caisson.runner import set_options
 
 PAGE = ROOT / "doc/how_to/after_installation.md"
 COARSE: Entries = {
@@ -45,21 +43,13 @@ class Page(ProgramTest):
             scene = str(ROOT / words[1])
             entries = COARSE | (QUICK if "springs" in scene else {})
             called = [str(self.program), scene, *words[2:], *set_options(entries)]
+            done = subprocess.run(
+                called, cwd=directory, text=True, capture_output=True, env=ALONE
+            )
         else:
             self.assertEqual(words[0], "scripts/caisson", words)
-            called = [sys.executable, "-B", "-m", "caisson", *words[1:]]
-        paths = os.pathsep.join(
-            [str(ROOT / "python"), os.environ.get("PYTHONPATH", "")]
-        )
-        done = subprocess.run(
-            called,
-            cwd=directory,
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            env={**environment(), "PYTHONPATH": paths},
-        )
-        self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
+            done = caisson(*words[1:], cwd=directory)
+        self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}{done.stderr}")
 
     def test_commands(self) -> None:
         """They all work, and leave what the page says."""

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What laws keep of a point: its stress without strain, its yield stress, STATEV."""
 import math
-import subprocess
 import unittest
 
 import numpy as np
-from program import BAD_INPUT, HERE, SUCCESS, scene, summary
+from program import BAD_INPUT, SUCCESS, caisson, scene, summary
 from test_paraview_frames import files, read
 from test_user_material import COUNT, ELASTIC, LAYER, UserMaterialTest
 
@@ -112,8 +111,7 @@ class Frames(UserMaterialTest):
         modulus = ELASTIC[0] * 0.7 / (1.3 * 0.4)
         self.assertAlmostEqual(layer["p_wave_modulus_Pa"] / modulus, 1, places=6)
         self.assertAlmostEqual(layer["poisson_ratio"], 0.3, places=9)
-        words = [HERE.parent / "scripts/caisson", "export", path, "--to", "csv"]
-        subprocess.run(list(map(str, words)), check=True, capture_output=True)
+        self.assertEqual(caisson("export", path, "--to", "csv").returncode, 0)
         text = (path / "state.csv").read_text(encoding="utf-8")
         names = next(one for one in text.splitlines() if one[0] != "#").split(",")
         self.assertTrue({"statev_1", "statev_40"} <= set(names))

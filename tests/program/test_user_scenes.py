@@ -26,7 +26,7 @@ AT_REST = {
     "Rigid body/Velocity": 0,
     "Rigid body/Ramp time": 0,
     "Time/End penetration": 0,
-    "Time/End time": 4,
+    "Time/End time": 0.6,
     "Output/Frame penetrations": "",
     "Output/Frame interval": 0,
     "Output/Record interval": 100,
