@@ -6,8 +6,8 @@ equal within a tolerance.
 Usage: reference.py ROOM/NAME COMMAND [WORD]...
 
 runs the command in the current directory. It must end with status 0 and write what is
-in ROOM/NAME.output beside this file or, where there is no such file, lines of which
-some end with "yes" and none with "no". What it wrote is left in the file output.
+in ROOM/NAME.output beside this file or, where there is no such file, a verdict ": yes"
+at least, and none that is ": no". What it wrote is left in the file output.
 """
 import itertools
 import os
@@ -75,8 +75,8 @@ def main(name: str, *command: str) -> int:
         tolerance = OTHERS.get(name, USUAL)
         wrong = differences(file.read_text("utf-8"), done.stdout, tolerance)
     else:
-        ends = [line.split()[-1].lower() for line in done.stdout.split("\n") if line]
-        wrong = [] if "yes" in ends and "no" not in ends else [done.stdout]
+        verdicts = set(re.findall(r": (yes|no)\b", done.stdout.lower()))
+        wrong = [] if verdicts == {"yes"} else [done.stdout]
     print(*wrong, sep="\n")
     return int(bool(wrong))
 
