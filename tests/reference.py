@@ -75,7 +75,7 @@ def main(name: str, *command: str) -> int:
         tolerance = OTHERS.get(name, USUAL)
         wrong = differences(file.read_text("utf-8"), done.stdout, tolerance)
     else:
-        verdicts = set(re.findall(r": (yes|no)\b", done.stdout.lower()))
+        verdicts = set(re.findall(r": (yes|no)(?=,|$)", done.stdout.lower(), re.M))
         wrong = [] if verdicts == {"yes"} else [done.stdout]
     print(*wrong, sep="\n")
     return int(bool(wrong))
