@@ -81,7 +81,8 @@ test_command_line()
 
 
 int
-main()
+main(int, char **)
 {
   test_command_line();
+  return 0;
 }

@@ -12,24 +12,24 @@
 #include "sample_entries.h"
 
 void
-test_good_file(const Soil &soil, const Grid &grid)
+test_good_file(const SoilEntries &soil, const Grid &grid)
 {
   title("a good file");
   const ParameterOrigins origins =
-    read_text("\xEF\xBB\xBF# Shows what may stand in a file.\r\n"
-              "subsection Soil   # the sand\r\n"
-              "  set  Friction   angle= 38 # as measured\r\n"
-              "  set Youngs modulus = 2e7\r\n"
-              "end\r\n"
-              "SUBSECTION Grid\n"
-              "subsection Fine zone\n"
-              "  SET Rows = 0.25, \\  # two rows\n"
-              "             0.5\n"
-              "  # set Rows = 1, \\\n"
-              "  set Points per cell = 4\n"
-              "end\n"
-              "END",
-              {" Grid / Fine zone/Columns = 12", "Soil/Friction angle=33"});
+    read_sample("\xEF\xBB\xBF# Shows what may stand in a file.\r\n"
+                "subsection Soil   # the sand\r\n"
+                "  set  Friction   angle= 38 # as measured\r\n"
+                "  set Youngs modulus = 2e7\r\n"
+                "end\r\n"
+                "SUBSECTION Grid\n"
+                "subsection Fine zone\n"
+                "  SET Rows = 0.25, \\  # two rows\n"
+                "             0.5\n"
+                "  # set Rows = 1, \\\n"
+                "  set Points per cell = 4\n"
+                "end\n"
+                "END",
+                {" Grid / Fine zone/Columns = 12", "Soil/Friction angle=33"});
   std::cout << soil.friction_angle << ' ' << soil.youngs_modulus << ' '
             << soil.model << ' ' << grid.n_points << ' ' << grid.n_columns
             << ' ' << grid.rows[0] << ' ' << grid.rows[1] << ' ' << grid.moves
@@ -68,7 +68,7 @@ test_bad_statements()
 {
   title("statements that cannot be read");
   const auto read = [](const std::string &text) {
-    print_error(text.substr(0, text.find('\0')), [&]() { read_text(text); });
+    print_error(text.substr(0, text.find('\0')), [&]() { read_sample(text); });
   };
   read("");
   read("# only a comment\n\n");
@@ -133,7 +133,7 @@ read_files(const std::vector<std::pair<std::string, std::string>> &files)
 
 
 void
-test_include(const Soil &soil, const Grid &grid)
+test_include(const SoilEntries &soil, const Grid &grid)
 {
   title("include");
   std::filesystem::create_directories("scenes/base");
@@ -212,9 +212,9 @@ test_bad_overrides()
 
 
 int
-main()
+main(int, char **)
 {
-  Soil        soil;
+  SoilEntries soil;
   Grid        grid;
   Method      method;
   StopRequest stop_request;
@@ -223,4 +223,5 @@ main()
   test_bad_statements();
   test_include(soil, grid);
   test_bad_overrides();
+  return 0;
 }

@@ -24,7 +24,7 @@ test_choices(const Method &method)
   const auto read = [&](const std::string &text) {
     print_error(text, [&]() {
       const ParameterOrigins origins =
-        read_text("subsection Method\n" + text + "\nend\n");
+        read_sample("subsection Method\n" + text + "\nend\n");
       for (const std::string &warning : origins.warnings())
         std::cout << warning << '\n';
       print();
@@ -50,10 +50,10 @@ test_places()
   title("places and entries that are not used");
   std::ofstream("sand.prm") << "subsection Soil\n  set Model = Tresca\nend\n";
   ParameterOrigins origins =
-    read_text("include sand.prm\nsubsection Soil\n  set Youngs modulus = 1\n"
-              "end\nsubsection Grid\nsubsection Fine zone\n"
-              "  set Rows = 1\n  set Columns = 2\nend\nend\n",
-              {"Soil/Friction angle=3"});
+    read_sample("include sand.prm\nsubsection Soil\n  set Youngs modulus = 1\n"
+                "end\nsubsection Grid\nsubsection Fine zone\n"
+                "  set Rows = 1\n  set Columns = 2\nend\nend\n",
+                {"Soil/Friction angle=3"});
   std::cout << origins.places_of_entries_in(
                  "Soil/Friction angle = 3 does not fit Soil/Youngs modulus = 1 "
                  "and Soil/Model, Soil/Youngs moduli; Method/K0 = 2.")
@@ -97,7 +97,7 @@ test_descriptions()
   title("all entries, readable as a parameter file");
   const std::string text = describe_parameters(ParameterAcceptor::prm);
   std::cout << text;
-  read_text(text);
+  read_sample(text);
   std::cout << "read again: "
             << (describe_parameters(ParameterAcceptor::prm) == text) << '\n';
 
@@ -122,19 +122,20 @@ test_nearest_names()
 
 
 int
-main()
+main(int, char **)
 {
   {
-    Soil        soil;
+    SoilEntries soil;
     Grid        grid;
     Method      method;
     StopRequest stop_request;
     test_choices(method);
     test_places();
-    read_text("subsection Grid\nsubsection Fine zone\n"
-              "  set Points per cell = 4\nend\nend\n",
-              {"Soil/Friction angle=38"});
+    read_sample("subsection Grid\nsubsection Fine zone\n"
+                "  set Points per cell = 4\nend\nend\n",
+                {"Soil/Friction angle=38"});
     test_descriptions();
   }
   test_nearest_names();
+  return 0;
 }

@@ -347,4 +347,5 @@ main(int argc, char *argv[])
   test_timing();
   test_console();
   test_single_process();
+  return 0;
 }

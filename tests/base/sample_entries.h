@@ -25,9 +25,9 @@ namespace Patterns = dealii::Patterns;
 
 
 /** Entries as the classes of the program declare them. */
-struct Soil : public Section
+struct SoilEntries : public Section
 {
-  Soil()
+  SoilEntries()
     : Section("Soil")
   {
     add_parameter("Friction angle",
@@ -128,8 +128,8 @@ struct Method : public Section
 
 
 inline ParameterOrigins
-read_text(const std::string              &text,
-          const std::vector<std::string> &overrides = {})
+read_sample(const std::string              &text,
+            const std::vector<std::string> &overrides = {})
 {
   std::ofstream("jack.prm", std::ios::binary) << text;
   return read_parameters(ParameterAcceptor::prm, "jack.prm", overrides);

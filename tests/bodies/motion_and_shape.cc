@@ -205,4 +205,5 @@ main(int argc, char *argv[])
   check_momentum();
   check_spring("heavy body", 0.);
   check_spring("body that is light against the soil", 100. * body_mass);
+  return 0;
 }

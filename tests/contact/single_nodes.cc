@@ -257,4 +257,5 @@ main(int argc, char *argv[])
   check_cone();
   check_lid();
   check_cylinder();
+  return 0;
 }

@@ -272,4 +272,5 @@ main(int argc, char *argv[])
   check_lid();
   heading("cylinder");
   check_cylinder();
+  return 0;
 }

@@ -400,7 +400,7 @@ check_refusals()
 }
 
 int
-main()
+main(int, char **)
 {
   check_lines();
   check_cells();
@@ -410,4 +410,5 @@ main()
   check_similar_meshes();
   check_motion();
   check_refusals();
+  return 0;
 }

@@ -253,4 +253,5 @@ main(int argc, char *argv[])
   check_points();
   check_others();
   check_refusals();
+  return 0;
 }

@@ -367,4 +367,5 @@ main(int argc, char *argv[])
   check_padding();
   heading("costs of cells");
   check_costs();
+  return 0;
 }

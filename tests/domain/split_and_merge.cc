@@ -76,7 +76,7 @@ check_split_and_merge()
     std::find_if(counts.begin(), counts.end(), [](const auto &count) {
       return count.first == "points_split";
     })->second;
-  std::printf("points split: %s\n", n_split > n / 10 ? "many" : "few");
+  std::printf("many points split: %s\n", n_split > n / 10 ? "yes" : "no");
   verdict("halves of the largest points left whole", too_large, 0.);
   verdict("halves outside their cell", outside, 0.);
   verdict("splitting changes mass, moments, momentum, volume, stress by",
@@ -86,8 +86,8 @@ check_split_and_merge()
     s.points.adapt([&](const unsigned int) {
       return std::array<double, 2>{{1e3 * largest[0], 1e3 * largest[1]}};
     });
-  std::printf("points merged: %s\n",
-              s.points.n_points() < split / 2 ? "most" : "few");
+  std::printf("most points merged: %s\n",
+              s.points.n_points() < split / 2 ? "yes" : "no");
   verdict("merging changes mass, moments, momentum, volume, stress by",
           change(resultants(s.points), before),
           1e-12);
@@ -215,4 +215,5 @@ main(int argc, char *argv[])
   verdict("merged points depend on the order in which they came by",
           std::abs(merged_sum(true) / merged_sum(false) - 1.),
           1e-13);
+  return 0;
 }

@@ -144,4 +144,5 @@ main(int argc, char *argv[])
   check_motion();
   check_force();
   check_counter();
+  return 0;
 }

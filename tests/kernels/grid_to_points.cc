@@ -215,7 +215,7 @@ check_kept_moments(const double axisymmetric)
         worst = std::max(worst, std::abs(a[i] - b[i]) / (1. + std::abs(b[i])));
     }
   verdict("moments kept for the next step, error", worst, 1e-12);
-  std::printf("cells that no point left: %s\n", n > 0 ? "some" : "none");
+  std::printf("some cells no point left: %s\n", n > 0 ? "yes" : "no");
 }
 
 

@@ -164,9 +164,9 @@ test_any_state()
                                        Scalar(point.void_ratio),
                                        p)[0]);
     }
-  std::printf("Any state\nnot finite: %u\n", not_finite);
+  std::printf("Any state\n");
+  report("not finite", not_finite, 0.);
   report("|h| / R", length, 1. + 1e-12);
-  std::printf("largest stiffness over the bound: %.2f\n", excess);
   report("excess over the bound", excess - 1., 1e-3);
 }
 

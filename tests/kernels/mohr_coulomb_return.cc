@@ -271,7 +271,7 @@ test_random_states()
   report_visits("cut-off: corner", verdict.n_cutoff_corner);
   report_visits("cut-off and cone: line", verdict.n_line);
   report_visits("cut-off and cone: end points", verdict.n_line_end);
-  std::printf("states without a reference: %u\n", verdict.no_solution);
+  report("states without a reference", verdict.no_solution, 0.);
   report("difference from the reference", verdict.reference, 1e-10);
   report("distance between solutions", verdict.spread, 1e-9);
   report("yield function", verdict.yield, 1e-10);

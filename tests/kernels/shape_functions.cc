@@ -97,8 +97,9 @@ check_shape_functions()
 
 
 int
-main()
+main(int, char **)
 {
   heading("shape functions");
   check_shape_functions();
+  return 0;
 }

@@ -243,7 +243,7 @@ check_refusals()
 }
 
 int
-main()
+main(int, char **)
 {
   check_constant();
   check_constant_expression();
@@ -253,4 +253,5 @@ main()
   check_given_stress();
   check_cohesion_and_tension();
   check_refusals();
+  return 0;
 }

@@ -97,4 +97,5 @@ main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_boundary_conditions();
   check_prescribed_velocity();
+  return 0;
 }

@@ -269,4 +269,5 @@ main(int argc, char *argv[])
   check_excess_pressure();
   heading("order of the calls");
   check_order();
+  return 0;
 }

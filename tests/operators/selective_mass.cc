@@ -239,4 +239,5 @@ main(int argc, char *argv[])
           growth_in_bar("USL"),
           2.);
   verdict("MUSL, whose speed grows", 10. / growth_in_bar("MUSL"), 1.);
+  return 0;
 }

@@ -109,7 +109,7 @@ refuse(const std::string &entry, const std::string &text)
 }
 
 int
-main()
+main(int, char **)
 {
   for (const char *text : {"maxx speed : 0 : 1",
                            "max sped : 0 : 1",
@@ -161,4 +161,5 @@ main()
               series_modes().at("frequency").compare(straight).error <= 1e9 ?
                 "yes" :
                 "no");
+  return 0;
 }

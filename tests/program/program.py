@@ -12,7 +12,9 @@ CAISSON_MPM_PROGRAM names another program than that of build/release, and
 CAISSON_MPM_TEST_DIRECTORY where the results go.
 """
 import atexit
+import contextlib
 import functools
+import io
 import os
 import re
 import shutil
@@ -26,6 +28,8 @@ from typing import Any
 HERE = Path(__file__).resolve().parent.parent  # tests
 sys.path[:0] = [str(HERE.parent / folder) for folder in ("python", "tools", ".")]
 
+from caisson import __main__ as command_line  # noqa: E402
+from caisson import runner  # noqa: E402
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
 from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
@@ -40,13 +44,14 @@ ALONE = environment()  # of a program on one rank
 # program_server.cc, which ctest names; of use where it is not older than the
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
+START = Path.cwd()  # where the server runs
 
 
 def scene(name: str) -> str:
-    """Return a scene of the tests, whose names are unique over all rooms, or one by
-    its path from tests."""
+    """Return a scene of the tests, whose names are unique over all rooms, or of the
+    verification, or one by its path from tests."""
     found = HERE.glob(f"{name}.prm" if "/" in name else f"*/{name}.prm")
-    return str(next(found))
+    return str(next(found, HERE.parent / f"lab/verification/{name}.prm"))
 
 
 def user_scene(name: str) -> str:
@@ -106,7 +111,7 @@ def server() -> "subprocess.Popen[str] | None":
 def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
     """Let the server make a call; return nothing where it cannot."""
     process = server()
-    if process is None:
+    if process is None or Path.cwd() != START:
         return None
     assert process.stdin and process.stdout
     with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
@@ -115,6 +120,41 @@ def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
         process.stdin.flush()
         status = int(process.stdout.readline())
         return subprocess.CompletedProcess(words, status, output.read())
+
+
+class ThroughServer:
+    """The module subprocess, but that the server makes the calls of the program whose
+    words are waited for."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(subprocess, name)
+
+    def run(self, words: list[str], **more: Any) -> "subprocess.CompletedProcess[str]":
+        """Run a program to its end."""
+        is_query = words[0] == str(PROGRAM) and more.get("stderr") == subprocess.STDOUT
+        done = query_server(words) if is_query else None
+        return done or subprocess.run(words, **more)
+
+
+setattr(runner, "subprocess", ThroughServer())
+
+
+def caisson(*words: Any, cwd: Path | None = None) -> "subprocess.CompletedProcess[str]":
+    """Run a command of the user to its end, whatever its status. It runs in this
+    process, which has loaded Python's packages; cwd: where, otherwise here."""
+    said, complained = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(cwd or Path.cwd()),
+        contextlib.redirect_stdout(said),
+        contextlib.redirect_stderr(complained),
+    ):
+        try:
+            status = command_line.main([*map(str, words)])
+        except SystemExit as end:  # of --help, or a wrong option
+            status = int(end.code or 0)
+    return subprocess.CompletedProcess(
+        words, status, said.getvalue(), complained.getvalue()
+    )
 
 
 class ProgramTest(unittest.TestCase):

@@ -1,9 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The velocity limiter, the mass floor, split points, instruction sets and energy."""
+"""The velocity limiter, the mass floor, split points, instruction sets, energy, soil
+that hardly changes its volume, and runs that end because a point is lost."""
 import unittest
 
-from program import BAD_INPUT, FAILURE, SUCCESS, ProgramTest, history, scene, summary
+import numpy as np
+from program import (
+    BAD_INPUT,
+    FAILURE,
+    history,
+    ProgramTest,
+    scene,
+    SUCCESS,
+    summary,
+    user_scene,
+)
+from test_result_warnings import SMALL
 
 
 class Limits(ProgramTest):
@@ -127,6 +139,68 @@ class Step(ProgramTest):
             work += b["total_force_N"] * (b["penetration_m"] - a["penetration_m"])
         self.assertAlmostEqual(rows[-1]["external_work_J"] / work, 1.0, delta=0.02)
         self.assertLess(rows[-1]["kinetic_energy_J"], 0.03 * work)
+
+
+class Lost(ProgramTest):
+    """Runs that cannot go on."""
+
+    def test_point_leaves_the_mesh(self) -> None:
+        path = self.directory()
+        text = self.run_scene(
+            "block_slides",
+            path,
+            FAILURE,
+            entries={
+                "Time/End time": 2,
+                "Output/Record interval": 0.1,
+                "Boundary conditions/Side": "free",
+            },
+        )
+        self.assert_words(
+            ["material point", "left the mesh", "began at", "Likely cause"], text
+        )
+        self.assertGreater(len(history(path)), 3, "the rows so far are lost")
+
+    def test_not_finite(self) -> None:
+        path = self.directory()
+        text = self.run_scene(
+            "jack", path, FAILURE, entries={"Soil/Layer 1/Solid density": 1e307}
+        )
+        self.assert_words(
+            ["not finite", "step", "material point", "began at", "Likely cause"], text
+        )
+        self.assertEqual(len(history(path)), 1, "the first row is lost")
+
+
+class PoissonRatio(ProgramTest):
+    """Frictional soil with one shear modulus and different Poisson ratios."""
+
+    def tip_force(self, nu: float) -> float:
+        """Return the mean tip force from 0.9 to 1.1 m. Units: N."""
+        path = self.directory(f"nu_{nu}")
+        self.run_program(
+            SUCCESS,
+            user_scene("jack_coarse"),
+            "--output-directory",
+            path,
+            entries={
+                **SMALL,
+                "Time/Mass scaling": 100,
+                "Time/End penetration": 1.1,
+                "Output/Frame interval": "never",
+                "Output/Frame penetrations": "",
+                "Soil/Layer 1/Poisson ratio": nu,
+                "Soil/Layer 1/Youngs modulus": 5e6 * (1 + nu) / 1.3,
+            },
+        )
+        rows = [row for row in history(path) if row["penetration_m"] >= 0.9]
+        return float(np.mean([row["tip_force_N"] for row in rows]))
+
+    def test_strength_is_kept(self) -> None:
+        """Nearly incompressible soil bears more in a small domain, and not half."""
+        usual, incompressible = self.tip_force(0.3), self.tip_force(0.49)
+        self.assertGreater(incompressible, usual)
+        self.assertLess(incompressible, 1.3 * usual)
 
 
 if __name__ == "__main__":

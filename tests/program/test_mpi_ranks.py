@@ -84,33 +84,21 @@ class Ranks(ProgramTest):
         more else the machine does."""
         self.compare_ranks((4,), 1, {"Time/End penetration": 0.7}, least_steps=400)
 
-    def test_split_and_merge(self) -> None:
-        entries = {
-            "Time/End penetration": 1,
-            "Material points/Split and merge": "true",
-        }
-        one = self.compare_ranks((2,), 1, entries)
-        self.assertGreater(one["points_split"], 100)
-        self.assertGreater(one["points_merged"], 100)
-
-    def test_hanging_nodes(self) -> None:
+    def test_hanging_nodes_and_changing_points(self) -> None:
         one = self.compare_ranks((2, 3), 1, {**HALVED, "Time/End penetration": 0.8})
         self.assertGreater(one["points_split"], 100)
+        self.assertGreater(one["points_merged"], 100)
 
 
 class Restart(ProgramTest):
     """Checkpoints are for any number of ranks."""
 
     def test_restart(self) -> None:
-        self.check_restart({"Time/End penetration": 1})
-
-    def test_restart_with_hanging_nodes(self) -> None:
-        self.check_restart({**HALVED, "Time/End penetration": 0.8})
-
-    def check_restart(self, scene_entries: Entries) -> None:
-        """A checkpoint of two ranks is continued on one and on three."""
+        """A checkpoint of two ranks is continued on one and on three, with hanging
+        nodes, and points that split and merge."""
         whole, stopped = self.directory("whole"), self.directory("stopped")
-        entries = {"Output/Record interval": 0.05, **scene_entries}
+        entries = {**HALVED, "Output/Record interval": 0.05}
+        entries["Time/End penetration"] = 0.7
         self.run_scene("jack", whole, entries=entries)
         limited = {**entries, "Run control/Wall time limit": 0.2}
         self.run_scene("jack", stopped, STOPPED, entries=limited, ranks=2)

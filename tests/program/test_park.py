@@ -34,6 +34,14 @@ class Park(CommandTest):
         """Write the table."""
         self.table.write_text("\n".join([HEADS, *rows]) + "\n", encoding="utf-8")
 
+    def caisson(self, *words: str, status: int = 0) -> tuple[str, str]:
+        """Run a command, with the other program, in a process of its own."""
+        done = subprocess.run(
+            self.words(*words), text=True, capture_output=True, env=self.environment()
+        )
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout, done.stderr
+
     def words_of(self, *options: str) -> list[str]:
         """Return the words of a call with the stand-in."""
         words = ["park", str(self.table), "--error", "20", "--out", str(self.out)]

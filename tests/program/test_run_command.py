@@ -44,11 +44,14 @@ class Run(ProgramTest):
 
     def test_report_has_the_warnings(self) -> None:
         """What has no effect is reported in the terminal, run.json and the page. The
-        directory is that of an entry; the other tests name it by its option."""
+        directory is that of an entry; the other tests name it by its option. So on
+        several ranks."""
         path = self.directory()
+        ranks = ["--ranks", 2]
         unused = ["--set", "Water/Renewal=0.125", "--set", f"Output/Directory={path}"]
-        text = self.run_scene_and_draw(SUCCESS, scene("jack"), *SHORT, *unused)
+        text = self.run_scene_and_draw(SUCCESS, *ranks, scene("jack"), *SHORT, *unused)
         self.assertIn("warning: ", text)
+        self.assertEqual(summary(path)["ranks"], 2)
         (warning,) = summary(path)["warnings"]
         self.assertIn("Water/Renewal", warning)
         entries = summary(path)["entries"]
@@ -57,13 +60,6 @@ class Run(ProgramTest):
         page = html.unescape((path / "report.html").read_text(encoding="utf-8"))
         for part in (warning, "<td>0.125</td>", "Status: finished"):
             self.assertTrue(part in page, part)  # the page is long
-        self.assert_drawn(path)
-
-    def test_several_ranks(self) -> None:
-        path = self.directory()
-        words = ["--ranks", 2, scene("jack"), *SHORT, "--output-directory", path]
-        self.run_scene_and_draw(SUCCESS, *words)
-        self.assertEqual(summary(path)["ranks"], 2)
         self.assert_drawn(path)
 
     def test_several_ranks_are_stopped(self) -> None:

@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from program import HERE, ProgramTest, scene, user_scene
+from program import HERE, ProgramTest, caisson, scene, user_scene
 
 from caisson.runner import read_parameters
 from caisson.study import Options
@@ -106,11 +106,10 @@ class Parameters(ProgramTest):
         """Run the study above with these friction angles."""
         file = path / "angles.toml"
         file.write_text(PARAMETERS.replace("VALUES", values), encoding="utf-8")
-        words = [str(HERE.parent / "scripts/caisson"), "study", str(file)]
-        words += ["--program", str(self.program), "--results", str(path), *options]
-        return subprocess.run(
-            words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-        )
+        words = ["--program", self.program, "--results", path, *options]
+        done = caisson("study", file, *words)
+        done.stdout += done.stderr
+        return done
 
     def test_angles(self) -> None:
         """The base is the scene's; a stronger soil and rougher walls resist more; a

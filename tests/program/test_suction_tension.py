@@ -355,7 +355,7 @@ class SealedLid(ProgramTest):
                 "Material points/Split and merge": "true",
                 "Method/Local damping": 0.4,
                 "Time/Courant number": courant,
-                END: 0.75,
+                END: 0.85,
             }
             self.run_scene("jack", path, entries=entries)
             rows = history(path)

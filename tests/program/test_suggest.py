@@ -3,16 +3,14 @@
 """caisson suggest: scenes for one's own caisson."""
 import argparse
 import re
-import subprocess
-import sys
 import tomllib
 import unittest
 from pathlib import Path
 
-from program import SUCCESS, HERE, ProgramTest, history, summary
+from program import SUCCESS, HERE, ProgramTest, caisson, history, summary
 
 from caisson import density_law
-from caisson.runner import environment, read_parameters
+from caisson.runner import read_parameters
 from caisson.suggest.soil import LAWS
 from caisson.design import cone_file
 from lab.stability import suggested
@@ -39,15 +37,10 @@ class SuggestTest(ProgramTest):
         """Run a command for a caisson of 10 m, unless other sizes are given."""
         sizes = {"--diameter": "10", "--skirt": "8", "--wall": "40mm"}
         given = [w for k, v in sizes.items() if k not in words for w in (k, v)]
-        done = subprocess.run(
-            [sys.executable, "-B", "-m", "caisson", *words, *given],
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
-        )
-        self.assertEqual(done.returncode, status, done.stdout)
-        return done.stdout
+        done = caisson(*words, *given)
+        text = done.stdout + done.stderr
+        self.assertEqual(done.returncode, status, text)
+        return text
 
 
 class Sizes(SuggestTest):
@@ -74,7 +67,7 @@ class Sizes(SuggestTest):
         """Sand, clay and both, small and large: the first scenes of the laboratory run
         without a warning of what the tool has chosen."""
         options = argparse.Namespace(
-            results=self.made_directory(), validate=False, walls=0.5, limit=1000
+            results=self.made_directory(), validate=False, walls=0.2, limit=1000
         )
         for number in range(suggested.QUICK):
             case = suggested.case_of(suggested.SEED, number)
@@ -215,12 +208,7 @@ class Layers(SuggestTest):
             self.assertAlmostEqual(wall, 2 / 3 * angles[name][0], delta=0.1)
         self.assertEqual(list(angles), [f"{a}, {a + 4}" for a in range(29, 38, 2)])
         self.assertEqual(angles["33, 37"], [33, 37])
-        listed = subprocess.run(
-            [sys.executable, "-B", "-m", "caisson", "study", str(study), "--list"],
-            text=True,
-            capture_output=True,
-            env={**environment(), "PYTHONPATH": str(HERE.parent / "python")},
-        )
+        listed = caisson("study", study, "--list")
         self.assertEqual(listed.returncode, 0, listed.stderr)
         self.assertIn("friction angle of layers 1 and 2 of own.prm", listed.stdout)
         for words in (

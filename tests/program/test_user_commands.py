@@ -7,8 +7,9 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from program import HERE, SUCCESS, ProgramTest, history, summary, user_scene
+from program import HERE, SUCCESS, ProgramTest, caisson, history, summary, user_scene
 
 from caisson import error_bounds, ranks
 from caisson.paths import PROGRAM
@@ -37,9 +38,7 @@ class CommandTest(ProgramTest):
 
     def caisson(self, *words: str, status: int = 0) -> tuple[str, str]:
         """Run a command; return what it says, and what it complains of."""
-        done = subprocess.run(
-            self.words(*words), text=True, capture_output=True, env=self.environment()
-        )
+        done = caisson(*words)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout, done.stderr
 
@@ -59,7 +58,8 @@ class Launch(CommandTest):
             *sets,
         ]
 
-    def test_ranks(self) -> None:
+    @mock.patch("caisson.commands.run.draw")  # which test_run_command.py looks at
+    def test_ranks(self, _: mock.Mock) -> None:
         """Those that the points and this machine are good for, said in one line, also
         for a restart; the result is that of one rank. What only prints says nothing."""
         path, one = self.directory(), self.directory("one_rank")
@@ -81,8 +81,8 @@ class Launch(CommandTest):
     def test_ctrl_c_on_two_ranks(self) -> None:
         """The run stops in order: with a checkpoint, and the status that says so."""
         path = self.directory()
-        words = self.words(*self.run_to(3.0, path))
-        words[words.index("run") + 1 : words.index("run") + 1] = ["--ranks", "2"]
+        run, *more = self.run_to(3.0, path)
+        words = self.words(run, "--ranks", "2", *more)
         process = subprocess.Popen(
             words,
             text=True,

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The scenes of users, prm/*.prm, and of the laboratory."""
+"""The scenes of users, prm/*.prm, and of the laboratory: program.py."""
 import re
 import unittest
 
 from program import (
+    checks,
+    Entries,
+    history,
+    ProgramTest,
     SCENES,
     SUCCESS,
-    Entries,
-    ProgramTest,
-    checks,
-    history,
     summary,
     user_scene,
 )
@@ -18,6 +18,8 @@ from program import (
 from caisson import error_bounds
 from caisson.results import Results
 from lab.paths import LAB
+from lab.studies import scene_results
+
 
 WITHOUT_A_WARNING = ("jack", "jack_coarse", "jack_dense_sand", "jack_model", "column")
 VERTICAL_STRESS = "8829*z"
@@ -26,7 +28,7 @@ AT_REST = {
     "Rigid body/Velocity": 0,
     "Rigid body/Ramp time": 0,
     "Time/End penetration": 0,
-    "Time/End time": 4,
+    "Time/End time": 0.6,
     "Output/Frame penetrations": "",
     "Output/Frame interval": 0,
     "Output/Record interval": 100,
@@ -172,6 +174,62 @@ class HalvedCells(ProgramTest):
     def test_forces_are_those_of_lines(self) -> None:
         lines, halved = self.tip_force("lines", 0), self.tip_force("halved", 2)
         self.assertAlmostEqual(halved / lines, 1, delta=0.03)
+
+
+class SceneTest(ProgramTest):
+    """What both groups share."""
+
+    def compare(self, scenes: list[str]) -> None:
+        """Ask for the numbers of the file, within 3 %."""
+        known = scene_results.read()
+        for scene in scenes:
+            with self.subTest(scene=scene):
+                new = scene_results.numbers_of(
+                    scene, scene_results.SHORT, self.directory(scene), self.program
+                )
+                self.assertTrue(new, "no numbers")
+                self.assertEqual(scene_results.differences(new, known), [])
+
+
+class Drained(SceneTest):
+    """Scenes without water."""
+
+    def test_jacked(self) -> None:
+        """Sand and clay, coarse and fine."""
+        self.compare(["jack", "jack_refined", "jack_coarse", "jack_clay", "tutorial"])
+
+
+class ThinOrDense(SceneTest):
+    """Scenes that take longer for each step or meter."""
+
+    def test_jacked(self) -> None:
+        """A wall of 30 mm, and hypoplastic sand."""
+        self.compare(["jack_thin", "jack_dense_sand"])
+
+
+class Water(SceneTest):
+    """Scenes with water that flows."""
+
+    def test_suction(self) -> None:
+        """Seepage and coupled water."""
+        self.compare(["suction", "suction_coupled"])
+
+
+class WaterInSilt(SceneTest):
+    """The same in soil that hardly drains. Before a release, suction_dense_sand is
+    compared, too: it takes longer than all others together."""
+
+    def test_jacked(self) -> None:
+        """Without suction."""
+        self.compare(["jack_silt"])
+
+
+class SuctionInClay(SceneTest):
+    """The same in clay, and in clay over sand."""
+
+    def test_suction(self) -> None:
+        """A total stress, and seepage below clay."""
+        self.compare(["suction_clay", "suction_layers"])
 
 
 if __name__ == "__main__":

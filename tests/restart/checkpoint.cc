@@ -333,4 +333,5 @@ main(int argc, char *argv[])
   check_damaged_text(s);
   heading("damaged points of a small scene");
   check_damage(s, 7, 997);
+  return 0;
 }

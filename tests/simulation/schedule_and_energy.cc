@@ -204,4 +204,5 @@ main(int argc, char *argv[])
   check_motion();
   check_totals();
   check_balance();
+  return 0;
 }

@@ -238,7 +238,7 @@ check_least_compliance()
 }
 
 int
-main()
+main(int, char **)
 {
   check_pull_at_a_rate();
   check_cycles();
@@ -247,4 +247,5 @@ main()
   check_cavity_in_cycles();
   check_cavity_goes_on();
   check_least_compliance();
+  return 0;
 }

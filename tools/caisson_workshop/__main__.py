@@ -11,7 +11,6 @@ GROUPS: Groups = {
         "faults": (f"{THIS}.faults", "try to break the program"),
         "sanitize": (f"{THIS}.shell", "build with sanitizers and run the tests there"),
         "cross-arm": (f"{THIS}.shell", "run the tests of the kernels as for ARM"),
-        "update-reference": (f"{THIS}.shell", "make outputs of tests the references"),
         "bare-debian": (
             f"{THIS}.clean_install",
             "try the commands of the README on a bare Debian",

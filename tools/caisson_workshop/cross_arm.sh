@@ -11,7 +11,7 @@
 #   CXX        the compiler, as in CXX=clang++ with --host
 #   JOBS       tests at a time (default: one per core)
 #   CXXFLAGS   further flags of the compiler, as in CXXFLAGS=-march=armv8.2-a
-# Needs: apt-get install g++-aarch64-linux-gnu qemu-user-static numdiff
+# Needs: apt-get install g++-aarch64-linux-gnu qemu-user-static
 # The directory build/cross_arm (or build/generic_lanes) has all outputs.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -23,7 +23,7 @@ fi
 compiler[0]=${CXX:-${compiler[0]}}
 # shellcheck disable=SC2206  # split into words on purpose
 compiler+=(-std=c++17 -Wall -Wextra -Wno-psabi -Werror "-I$root/include" ${CXXFLAGS:-})
-for tool in "${compiler[0]}" "${emulator[@]}" numdiff; do
+for tool in "${compiler[0]}" "${emulator[@]}"; do
   command -v "$tool" >/dev/null || { echo "cross_arm: $tool is missing: see $0" >&2 && exit 1; }
 done
 mkdir -p "$place"
@@ -59,7 +59,7 @@ run_test() { # SOURCE; the last line says how it went
   elif mkdir -p "$place/$name" &&
        "${compiler[@]}" -O1 "$1" "$place/kernels.o" "$place/dispatch.o" -static \
          -o "$place/$name/program" && cd "$place/$name" &&
-       "$root/tests/regression" "${1%.cc}.output" "${emulator[@]}" ./program; then
+       python3 -B "$root/tests/reference.py" "kernels/$name" "${emulator[@]}" ./program; then
     echo "$name: passed"
   else
     echo "$name: FAILED"
