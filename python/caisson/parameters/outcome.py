@@ -58,10 +58,12 @@ class Outcome:
             return None
         depth = curve_of(self.history, REQUIRED)[0]
         mean = values_at(self.history, REQUIRED, depth)
-        (rises,) = np.nonzero((mean[:-1] <= 0) & (mean[1:] > 0))
-        shares = mean[rises] / (mean[rises] - mean[rises + 1])
-        passes = depth[rises] + shares * np.diff(depth)[rises]
-        return float(min(passes, key=lambda x: abs(x - rest), default=rest))
+        above = np.flatnonzero((mean[:-1] <= 0) & (mean[1:] > 0))
+        shares = mean[above] / (mean[above] - mean[above + 1])
+        passes: np.ndarray = depth[above] + shares * (depth[above + 1] - depth[above])
+        if not len(passes):
+            return rest
+        return float(passes[np.argmin(np.abs(passes - rest))])
 
 
 def why_failed(run: StudyRun) -> str:
