@@ -153,6 +153,13 @@ class Results:
             raise ResultsError(f"{found.path} has no {name}")
         return found
 
+    def parts_of_wall(self, name: str, *lengths: str) -> list[tuple[float, ...]]:
+        """Return lengths (m) of the rings or steps of a wall ("ring", "wall_step") from
+        below, such as above_tip."""
+        keys = [[f"{name}_{i}_{x}_m" for x in lengths] for i in range(1, 21)]
+        known = [row for row in keys if row[0] in self.scene]
+        return [tuple(float(self.scene[key]) for key in row) for row in known]
+
     @property
     def known(self) -> dict[str, Any]:
         """run.json; empty where a run has left none yet."""

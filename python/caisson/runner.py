@@ -157,6 +157,7 @@ class Run:
     """
 
     RECORD = "run_key.json"
+    CHECKPOINT = "checkpoint.info"
     # what this package and its commands write beside the program's own files
     OWN = (
         *("log", RECORD, "forces.png", "suction.png", "design.csv", "walls.png"),
@@ -204,6 +205,21 @@ class Run:
     def validate(self) -> Size:
         """Return the size of a run that the program accepts. Raises RunError."""
         return size_in(query([*self.arguments(), "--validate"], self.program))
+
+    def resume(self) -> None:
+        """Let the run go on from the checkpoint of one that has not ended, if there is
+        one that the program accepts for these entries."""
+        if self.has_checkpoint and self.completion_record() is None:
+            try:
+                query([*self.arguments(), "--restart", "--validate"], self.program)
+            except RunError:
+                return
+            self.restarts = True
+
+    @property
+    def has_checkpoint(self) -> bool:
+        """Whether there is a checkpoint, of whatever run."""
+        return (self.directory / self.CHECKPOINT).is_file()
 
     @functools.cached_property
     def key(self) -> str:

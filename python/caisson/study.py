@@ -104,6 +104,7 @@ class StudyRun:
     run: Run
     trouble: str | None = None
     size: Size = Size()
+    is_stopped: bool = False  # by a stop file, say
 
     @property
     def results(self) -> Results:
@@ -126,9 +127,11 @@ class StudyRun:
         if not again and self.run.is_complete():
             return
         status = self.run.execute(time_limit, ranks)
+        self.is_stopped = status == Status.STOPPED
         record = self.run.completion_record()
         if record is None:
             how = "ended early" if status is None else f"exit status {status}"
+            how = "stopped" if self.is_stopped else how
             self.trouble = f"{how}, see {self.run.directory / 'log'}"
         cost = f"{record['wall_s']:.0f} s" if record else self.trouble
         if record and record["status"] == Status.FAILURE:

@@ -6,7 +6,8 @@ force, and a file `calls` beside the results that counts the runs.
 Entries: Soil/Friction angle (30), Soil/Stiffness (5e6), Soil/Kind (sand). It refuses an
 angle below 0 with --validate, and breaks off at 3 m where it is above 40. The variable
 FAKE_PROGRAM_POINTS makes --validate report a number of points, and FAKE_PROGRAM_HOLDS
-names the directory of a run that does not end.
+names the directory of a run that leaves a checkpoint and does not end. A run with
+--restart has a + in calls.
 """
 import argparse
 import os
@@ -36,11 +37,13 @@ def print_parameters(entries: dict[str, str]) -> None:
         print(f"subsection {section}\n  set {name} = {value}\nend")
 
 
-def run(entries: dict[str, str], directory: Path) -> int:
-    """Write history.csv; return the exit status."""
+def run(entries: dict[str, str], directory: Path, mark: str) -> int:
+    """Write history.csv; return the exit status. mark: of the run in calls."""
     directory.mkdir(parents=True, exist_ok=True)
+    if directory.name == os.environ.get("FAKE_PROGRAM_HOLDS"):
+        (directory / "checkpoint.info").touch()
     with open(directory.parent / "calls", "a", encoding="utf-8") as calls:
-        calls.write(directory.name + "\n")
+        calls.write(f"{directory.name}{mark}\n")
     if directory.name == os.environ.get("FAKE_PROGRAM_HOLDS"):
         time.sleep(3600)  # the test ends it
     breaks_off = float(entries["Soil/Friction angle"]) > 40
@@ -63,6 +66,7 @@ def main() -> int:
     parser.add_argument("--print-parameters", action="store_true")
     parser.add_argument("--validate", action="store_true")
     parser.add_argument("--overwrite", action="store_true")
+    parser.add_argument("--restart", action="store_true")
     words = parser.parse_args()
     entries = dict(ENTRIES)
     for text in words.set:
@@ -78,7 +82,7 @@ def main() -> int:
         print("bad input: Friction angle must be positive", file=sys.stderr)
         return 1
     if not words.validate:
-        return run(entries, words.output_directory)
+        return run(entries, words.output_directory, "+" * words.restart)
     print("a.prm is valid")
     if points := os.environ.get("FAKE_PROGRAM_POINTS"):
         print(f"  points     {points}")

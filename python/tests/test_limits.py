@@ -139,6 +139,29 @@ class Governing(WithPage):
             more = self.installation(run).limits[limits.SHELL]
             self.assertTrue((more > 1.1 * limit).all(), entry)
 
+    def test_rings_and_steps(self) -> None:
+        """A ring of the scene divides the wall if it is stiff enough, which is said;
+        the thinnest part of the wall counts."""
+        thin = {"wall_thickness_m": 0.01}
+        step = {"wall_step_1_above_tip_m": 1.0, "wall_step_1_thickness_m": 0.01}
+        ring = {**thin, "ring_1_above_tip_m": 4.0, "ring_1_height_m": 0.04}
+        found, words, at = list[float](), list[str](), np.array([2.0])
+        for scene in (
+            thin,
+            {"wall_thickness_m": 0.02, **step},
+            {**ring, "ring_1_width_m": 0.05},
+            {**ring, "ring_1_width_m": 0.3},
+        ):
+            run = self.run_of(scene)
+            found.append(float(limits.limits_of(run, at)[limits.SHELL][0]))
+            words.append(limits.rings_in_words(run, at))
+        plain, stepped, weak, stiff = found
+        self.assertEqual((weak, words[:2]), (plain, ["", ""]))
+        self.assertAlmostEqual(stepped / plain, 1, delta=0.01)
+        self.assertIn("Rings are not counted where the wall buckles", words[2])
+        self.assertGreater(stiff, 1.2 * plain)
+        self.assertIn("Rings divide the wall", words[3])
+
     def test_all_kinds_have_a_row(self) -> None:
         """Those of which a run has none say why."""
         run = self.run_of()

@@ -234,6 +234,30 @@ class Cards(WithPage):
         words = sketch.about_layer(run, layers.layers_of(run.scene)[0], 130)
         self.assertEqual(words, "layer 1, φ = 32°")
 
+    def test_sketch_of_steps_and_rings(self) -> None:
+        """The wall has its thickness above and below a step, and a ring lies on its
+        inner face, to scale, but for a wall thinner than 67 mm."""
+        at = {"above_tip": 1.0, "thickness": 0.2}
+        scene = {**SCENE, **{f"wall_step_1_{k}_m": v for k, v in at.items()}}
+        at = {"above_tip": 2.0, "width": 0.4, "height": 0.5}
+        scene |= {f"ring_1_{k}_m": v for k, v in at.items()}
+        thin, thick = SCENE["wall_thickness_m"], 0.2
+        for face, inner in (("outer", 5 - thick), ("inner", 5 - thin)):
+            entries = {"Rigid body/Flush face": face}
+            leave_run(self.path, {**SUMMARY, "scene": scene, "entries": entries})
+            drawn = sketch.of_run(Results(self.path), 4.5, None)
+            named = [rf'{x}="([-.\d]+)"' for x in ("x", "y", "width", "height")]
+            found = re.findall(rf'"steel" {" ".join(named)}', drawn)
+            boxes = np.array([[float(x) for x in box] for box in found])
+            scale = boxes[-1][2] / 10  # of the lid
+            middle = boxes[-1][0] + 5 * scale
+            wall, ring = boxes[1], boxes[3]
+            low = (ring[1] + ring[3] - wall[1] - wall[3]) / scale
+            self.assertAlmostEqual(low, -1.0, delta=0.01)
+            for box, left, width in ((wall, inner, thick), (ring, inner - 0.4, 0.4)):
+                self.assertAlmostEqual((box[0] - middle) / scale, left, delta=0.03)
+                self.assertAlmostEqual(box[2] / scale, width, delta=0.01)
+
     def test_force_without_an_error_bar(self) -> None:
         """The command for the error of the mesh in the title."""
         title = "a caisson, on a mesh for an error of about 20 %"

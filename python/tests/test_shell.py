@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Buckling of the wall under suction: by hand, and with the pressures of a run."""
 import unittest
-from math import pi
+from math import inf, pi
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 from synthetic import write_columns, write_run
 
 from caisson.design import shell
+from caisson.design.rings import Ring, Shell
 from caisson.design.shell import Wall
 from caisson.results import Results
 
@@ -73,6 +74,51 @@ class ByHand(unittest.TestCase):
         self.assertEqual(shell.limit_suction(BUCKET, h, 500e6), 0.0)
         deep, shallow = (shell.limit_suction(BUCKET, x, weight) for x in (8.5, 5.0))
         self.assertGreater(deep, 1.2 * shallow)
+
+    def test_ring(self) -> None:
+        """A flat bar of 300 x 40 mm on D = 8 m, t = 30 mm, l = 3 m, at 100 kPa and 10
+        MN: r = 3.985 m, Z = 0.9539 * 9 / 0.11955 = 71.81, A = (2 / 71.81^2 + 0.06) 0.09
+        = 5.435e-3 m2 of 12e-3.
+
+        l_ef = 1.56 * 0.3458 / 1.0903 = 0.4947 m, 14.84e-3 m2; the centroid is 12 * 165
+        / 26.84 = 73.77 mm from the middle of the wall: I = 90.0e-6 + 12e-3 * 0.09123^2
+        + 1.11e-6 + 14.84e-3 * 0.07377^2 = 271.8e-6 m4.
+        sigma_a = 10 / (2 pi 0.11955) = 13.31 MPa; beta = 3 / 0.5394 = 5.562, l_e0 =
+        0.5394 m, sigma_hR = (13.28 - 3.99) / (1 + 12 / 16.18) * 3.985 / 3.67 = 5.79
+        MPa. r_0 = 3.911 m, z_t = 315 - 73.77 = 241.2 mm: 3 * 210e3 * 0.2412 * 0.019925
+        / (15.297 * (177.5 - 5.79)) = 1.153, so that the pressure needs 0.1 * 3.985 *
+        15.297 * 3 / 630e3 * 2.653 = 77.0e-6 and the axial stress 13.31 * 0.03 * 234.0
+        / (500 * 210e3 * 3) = 0.30e-6 m4. 300 mm of 0.4 * 24.32 * 40 = 389 mm: 0.771."""
+        near = Shell(3.985, 0.03, 3.0, 355e6, 210e9, 0.3)
+        ring = Ring(3.0, 0.3, 0.04)
+        self.check(near.needed_area(), 5.435e-3)
+        inertia, inward = near.section(ring)
+        self.check(inertia, 271.8e-6)
+        self.check(inward, 73.77e-3)
+        self.check(near.edge_stress(ring, 100e3, 13.31e6), 5.79e6)
+        self.check(near.needed_inertia(ring, 100e3, 10e6), 77.3e-6)
+        self.check(near.demand(ring, 100e3, 10e6), 0.771)
+        self.check(near.demand(Ring(3.0, 0.1, 0.04), 0.0, 0.0), 5.435 / 4)
+        self.assertEqual(near.needed_inertia(ring, 20e6, 0.0), inf)
+
+    def test_ring_divides_the_wall(self) -> None:
+        """One that suffices, in the part that buckles, is as the spacing of rings
+        that are known; a weak one does not count, nor one below."""
+        h, weight = 5.0, 6.5e6  # 4 m are free and 4.75 m in the soil
+        plain = shell.limit_suction(BUCKET, h, weight)
+        for ring, counts in (
+            (Ring(4.375, 0.4, 0.05), True),
+            (Ring(4.375, 0.05, 0.05), False),
+            (Ring(8.9, 0.4, 0.05), False),
+        ):
+            wall = BUCKET._replace(stiffeners=(ring,))
+            found = shell.limit_suction(wall, h, weight)
+            if counts:
+                half = BUCKET._replace(rings=4.375)
+                self.check(found, shell.limit_suction(half, h, weight))
+                self.assertGreater(found, 1.5 * plain)
+            else:
+                self.assertEqual(found, plain)
 
     def test_tension(self) -> None:
         """Without compression there is nothing that buckles, but steel yields."""

@@ -4,6 +4,7 @@ import contextlib
 import io
 import math
 import unittest
+from unittest.mock import MagicMock
 
 import numpy as np
 from scipy import stats
@@ -12,7 +13,9 @@ from test_parameters_runs import FAKE_PROGRAM, PHI, WithFiles
 
 from caisson import __main__ as program
 from caisson import needed
+from caisson.evaluation import rest_of_run
 from caisson.parameters import surface
+from caisson.parameters.outcome import COMPLETE, Outcome
 from caisson.parameters.surface import Refusal
 
 HAS_SKLEARN = needed.is_there("sklearn")
@@ -102,6 +105,26 @@ class MadeUp(unittest.TestCase):
         self.assertIn(
             "20 of 20 runs; a probability of at least 86", surface.in_words(every)
         )
+
+
+class Rest(unittest.TestCase):
+    """The penetration by weight of a run of a study."""
+
+    def test_passes_of_rows(self) -> None:
+        """Rows whose required suction jumps by 2 kPa about a line through 0 at 1.5 m
+        pass 0 again and again from 1 to 2 m: the mean passes it at 1.5 m."""
+        depth = np.linspace(0, 5, 251)
+        required = 4e3 * (depth - 1.5) + 2e3 * np.cos(20 * np.pi * depth)
+        history = {
+            "penetration_m": depth,
+            "required_suction_Pa": required,
+            "suction_Pa": np.maximum(required, 0),
+        }
+        run = Outcome("a", {}, COMPLETE, "", history, MagicMock(), None, False)
+        self.assertGreater(abs((rest_of_run(history) or 0) - 1.5), 0.1)
+        self.assertAlmostEqual(run.rest or 0, 1.5, delta=0.02)
+        history["suction_Pa"] = np.zeros(251)
+        self.assertIsNone(run.rest)
 
 
 class Study(WithFiles):

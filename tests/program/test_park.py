@@ -62,8 +62,9 @@ class Park(CommandTest):
         return (self.out / "runs" / name / "run_key.json").is_file()
 
     def test_a_kill_loses_no_run(self) -> None:
-        """What has ended stays as it is, and what was begun is repeated; a row that is
-        changed or added then takes a run, and no other one does."""
+        """What has ended stays as it is, and what was begun goes on from its
+        checkpoint; a row that is changed or added then takes a run, and no other one
+        does."""
         names = ["P1", "P2", "P3", "P4"]
         self.write(*(ROW.format(name, 20) for name in names))
         with subprocess.Popen(
@@ -83,7 +84,8 @@ class Park(CommandTest):
         said, _ = self.caisson(*self.words_of())
         self.assertIn("of which new or changed: 0", said)
         self.assertIn("4 of 4 positions", said)
-        self.assertEqual(self.calls(), sorted([*names, "P2"]))
+        self.assertIn("P2: goes on from its checkpoint", said)
+        self.assertEqual(self.calls(), sorted([*names, "P2+"]))
         after = {x: self.record(x).stat().st_mtime_ns for x in others}
         self.assertEqual(after, before)
         self.assertEqual(sorted(self.overview()), names)
@@ -92,7 +94,7 @@ class Park(CommandTest):
         self.write(*(ROW.format(name, 20) for name in [*names, "P/5"]))
         said, _ = self.caisson(*self.words_of())
         self.assertIn("positions: 5, of which new or changed: 1", said)
-        self.assertEqual(self.calls(), sorted([*names, "P2", "P_5"]))
+        self.assertEqual(self.calls(), sorted([*names, "P2+", "P_5"]))
         self.assertIn("P/5", self.overview())
 
     def record(self, name: str) -> Path:

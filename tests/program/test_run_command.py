@@ -12,6 +12,7 @@ from typing import Any
 
 from program import BAD_INPUT, HERE, STOPPED, SUCCESS, ProgramTest
 from program import history, scene, summary
+from caisson.runner import Run as Call, set_options
 
 SHORT = ["--set", "Time/End penetration=0.52"]
 
@@ -87,9 +88,8 @@ class Run(ProgramTest):
         self.assertEqual(text.count("bad input"), 1)
         self.assertFalse((path / "forces.png").exists())
 
-    def test_band(self) -> None:
-        """Three runs, one page of the best one; complete runs are not repeated, and
-        each is told what becomes of it."""
+    def band(self) -> Path:
+        """Write the scenes of a band; return the best one, own.prm."""
         path = self.made_directory()
         for end, angle in (("", 33), ("_low", 30), ("_high", 36)):
             lines = [
@@ -100,7 +100,13 @@ class Run(ProgramTest):
                 "end\nend",
             ]
             (path / f"own{end}.prm").write_text("\n".join(lines), encoding="utf-8")
-        best = path / "own.prm"
+        return path / "own.prm"
+
+    def test_band(self) -> None:
+        """Three runs, one page of the best one; complete runs are not repeated, and
+        each is told what becomes of it."""
+        best = self.band()
+        path = best.parent
         text = self.run_scene_and_draw(SUCCESS, "--band", best)
         self.assertEqual(text.count("from its start"), 3)
         self.assertRegex(text, "With low resistance .* at 0.7 m; with high resistance")
@@ -116,6 +122,31 @@ class Run(ProgramTest):
         self.assertEqual(history(path / "own_low"), low)
         text = self.run_scene_and_draw(BAD_INPUT, "--band", best, "--ranks", 2)
         self.assertIn("--band takes --set, --restart and --overwrite", text)
+
+    def test_band_is_stopped(self) -> None:
+        """By its stop files; its runs then go on from their checkpoints, as those of a
+        park do: those of the same entries that have not ended."""
+        best = self.band()
+        slow: dict[str, float] = {"Time/Courant number": 1e-3}
+        process = self.start_run("--band", best, *set_options(slow))
+        left = {best.parent / f"own{end}" for end in ("", "_low", "_high")}
+        while left and process.poll() is None:  # one after the other on few cores
+            for path in {path for path in left if (path / "history.csv").exists()}:
+                (path / "stop").touch()
+                left.remove(path)
+            time.sleep(0.05)
+        text = process.communicate()[0]
+        self.assertEqual(process.returncode, STOPPED, text)
+        self.assertEqual(text.count("--restart resumes it"), 3, text)
+        for entries in (slow, dict[str, float]()):
+            run = Call(best, entries, best.parent / "own", program=self.program)
+            run.resume()
+            self.assertEqual(run.restarts, entries == slow)
+        self.run_scene_and_draw(SUCCESS, "--band", best, "--overwrite")
+        run = Call(best, {}, best.parent / "own", program=self.program)
+        run.resume()
+        self.assertTrue(run.has_checkpoint)
+        self.assertFalse(run.restarts, "it has ended")
 
     def test_ctrl_c_leaves_a_checkpoint(self) -> None:
         """The terminal sends it to all; nothing may kill the program meanwhile."""

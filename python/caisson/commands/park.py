@@ -15,8 +15,8 @@ the columns low, high or spread, takes three runs, of low, best and high resista
 
 All rows are checked before anything runs. Results go to results/park/NAME:
 overview.html, overview.csv and overview.png, and a folder for each position below runs.
-What is there is kept: the same command goes on where it was stopped. On a cluster each
-job of an array takes a part,
+What is there is kept: the same command goes on where it was stopped, and a run from its
+last checkpoint. On a cluster each job of an array takes a part,
 
     caisson park positions.csv --part $SLURM_ARRAY_TASK_ID/10
     caisson park positions.csv --evaluate

@@ -76,11 +76,16 @@ class Row(NamedTuple):
 
 
 def check(studies: Sequence[Study], jobs: int) -> None:
-    """Ask for the sizes of the runs that are not complete."""
+    """Ask for the sizes of the runs that are not complete; those that were begun go on
+    from their checkpoints."""
     runs = [run for study in studies for run in study.runs]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         missing = [run for run in runs if run.run.completion_record() is None]
         list(pool.map(query_size, missing))
+        list(pool.map(lambda run: run.run.resume(), missing))
+    for run in missing:
+        if run.run.restarts:
+            print(f"{run.study} {run.name}: goes on from its checkpoint", flush=True)
 
 
 def page_of(directory: Path) -> str:

@@ -13,8 +13,6 @@ from caisson.ranks import cores
 from caisson.runner import Run, RunError, Status, read_parameters
 from caisson.study import StudyRun, execute
 
-CHECKPOINT = "checkpoint.info"
-
 
 def options_of(words: Sequence[str]) -> argparse.Namespace:
     """Return the options of the program that a band takes. Raises RunError."""
@@ -66,11 +64,10 @@ def prepare(member: StudyRun, options: argparse.Namespace) -> bool:
         ended = "complete" if member.status == Status.SUCCESS else "failed before"
         print(f"{name}: {ended}, and not repeated; --overwrite repeats it")
         return False
-    has_checkpoint = (run.directory / CHECKPOINT).is_file()
-    run.restarts = options.restart and has_checkpoint
+    run.restarts = options.restart and run.has_checkpoint
     about = f", {span(member.size.least, member.duration)}" if member.duration else ""
     how = "from its checkpoint" if run.restarts else "from its start"
-    hint = "; --restart resumes it" if has_checkpoint and not run.restarts else ""
+    hint = "; --restart resumes it" if run.has_checkpoint and not run.restarts else ""
     print(f"{name}: {how}{about}{hint}", flush=True)
     return True
 
@@ -84,6 +81,13 @@ def compute(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool:
         print("run: stopped; --restart resumes", file=sys.stderr)
         return True
     return False
+
+
+def status_of(member: StudyRun) -> Status:
+    """Return the exit status of a run, a failure where it has left no record."""
+    if member.is_stopped:
+        return Status.STOPPED
+    return Status.FAILURE if member.status is None else member.status
 
 
 def main(
@@ -105,7 +109,6 @@ def main(
             draw(runs[estimate].run.directory, None, estimate == BEST)
     for member in runs.values():
         if member.trouble:
-            has_checkpoint = (member.run.directory / CHECKPOINT).is_file()
-            hint = "; --restart resumes it" if has_checkpoint else ""
+            hint = "; --restart resumes it" if member.run.has_checkpoint else ""
             print(f"run: {member.name}: {member.trouble}{hint}", file=sys.stderr)
-    return max(Status.FAILURE if m.status is None else m.status for m in runs.values())
+    return max(map(status_of, runs.values()))

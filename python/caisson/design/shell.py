@@ -23,30 +23,35 @@ stress sigma_j = sqrt(sigma_a^2 - sigma_a sigma_h + sigma_h^2) follow
 
 and gamma_M from 1.15 (lambda < 0.5) to 1.45 (lambda > 1). rho holds for walls within
 the tolerances that the practice refers to (DNV-OS-C401); there are no classes of them.
-The row for lateral pressure is taken, as the axial stress counts on its own.
+The row for lateral pressure is taken, as the axial stress counts on its own. Rings of
+the scene divide the wall as long as they meet the demands of design/rings.
 
 p is the suction above the mudline. Below it, it is the difference of the normal stress
 with the pore pressure outside and inside that a run computed (wall.csv); the mean over
 l is weighted with the square of a half wave, as the work of the pressure is when the
 wall buckles. SI units, but for columns; depths are below the mudline.
 """
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import inf, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
+from caisson.design.rings import Ring, Shell
 from caisson.results import Results, Table
 
 POISSON_RATIO = 0.3
 LONG, OF_LONG = 2.25, 0.25
+MANY = 1e6  # of a check, in place of infinity
+Check = Callable[..., float]
 SIDES = ("outer", "inner")
 
 
 class Wall(NamedTuple):
     """The steel wall of a caisson: outer diameter, thickness and length (m), and the
-    steel (Pa). fixity: depth of fixity over the diameter; rings: spacing (m)."""
+    steel (Pa). fixity: depth of fixity over the diameter; rings: spacing (m) of those
+    that are known to suffice; stiffeners: others, from the lid down."""
 
     diameter: float
     thickness: float
@@ -55,6 +60,7 @@ class Wall(NamedTuple):
     youngs_modulus: float
     fixity: float
     rings: float = inf
+    stiffeners: tuple[Ring, ...] = ()
 
     @property
     def radius(self) -> float:
@@ -74,6 +80,11 @@ class Wall(NamedTuple):
         """Return the length that buckles at an embedment (m), from the lid down."""
         fixed = min(self.fixity * self.diameter, h)
         return min(self.free_length(h) + fixed, self.rings)
+
+    def stiffeners_at(self, h: float) -> list[Ring]:
+        """Return those in the part that buckles at an embedment (m)."""
+        length = self.buckling_length(h)
+        return [ring for ring in self.stiffeners if ring.below_lid < length]
 
 
 def elastic_strengths(wall: Wall, length: float) -> tuple[float, float]:
@@ -111,27 +122,52 @@ def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> flo
 def check_at(
     wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
 ) -> float:
-    """Return the unity check at an embedment (m), of suction (Pa) and weight (N); more:
-    what the mean pressure has beyond the suction (Pa)."""
+    """Return the unity check at an embedment (m), of suction (Pa) and weight (N),
+    without stiffeners; more: what the mean pressure has beyond the suction (Pa)."""
     axial = weight + suction * wall.area_inside
     return unity_check(wall, wall.buckling_length(h), suction + more, axial)
+
+
+def check_between(
+    wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
+) -> float:
+    """Return the same of the longest length between stiffeners, or what one of these
+    needs over what it has, if that is more."""
+    axial, pressure = weight + suction * wall.area_inside, suction + more
+    rings = wall.stiffeners_at(h)
+    edges = [0.0, *(ring.below_lid for ring in rings), wall.buckling_length(h)]
+    checks = [unity_check(wall, float(max(np.diff(edges))), pressure, axial)]
+    steel = wall.yield_strength, wall.youngs_modulus, POISSON_RATIO
+    for above, ring, below in zip(edges, rings, edges[2:]):
+        near = Shell(wall.radius, wall.thickness, (below - above) / 2, *steel)
+        checks.append(near.demand(ring, pressure, axial))
+    return min(max(checks), MANY)
+
+
+def limits_at(
+    wall: Wall, h: float, weight: float, more: float = 0.0, factor: float = 1.0
+) -> list[float]:
+    """Return the suction (Pa) at an embedment (m) at which the unity check is 1 under
+    factored loads, 0 where it is under the weight alone: without stiffeners and, where
+    there are any, between them."""
+    yields = wall.yield_strength * wall.thickness / wall.radius
+    most, found = 2 * (yields / factor + abs(more)), []
+    for check in (check_at, check_between)[: 1 + bool(wall.stiffeners_at(h))]:
+
+        def excess(suction: float, of: Check = check) -> float:
+            return of(wall, h, *(factor * x for x in (suction, weight, more))) - 1
+
+        is_none = excess(0.0) >= 0
+        found.append(0.0 if is_none else float(brentq(excess, 0.0, most, rtol=1e-6)))
+    return found
 
 
 def limit_suction(
     wall: Wall, h: float, weight: float, more: float = 0.0, factor: float = 1.0
 ) -> float:
-    """Return the suction (Pa) at an embedment (m) at which the unity check is 1 under
-    factored loads; 0 where it is under the weight alone."""
-
-    def excess(suction: float) -> float:
-        loads = (factor * load for load in (suction, weight, more))
-        return check_at(wall, h, *loads) - 1
-
-    if excess(0.0) >= 0:
-        return 0.0
-    yields = wall.yield_strength * wall.thickness / wall.radius
-    most = 2 * (yields / factor + abs(more))
-    return float(brentq(excess, 0.0, most, rtol=1e-6))
+    """Return the suction (Pa) under which the wall buckles at an embedment (m), with
+    stiffeners if these suffice for a larger one."""
+    return max(limits_at(wall, h, weight, more, factor))
 
 
 # -------------------------------------------------- what a run computed

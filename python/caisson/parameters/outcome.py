@@ -15,7 +15,7 @@ from caisson.results import ResultsError, Table, read_table
 from caisson.runner import Status
 from caisson.study import Study, StudyError, StudyRun
 
-DEPTH = "penetration_m"
+DEPTH, REQUIRED = "penetration_m", "required_suction_Pa"
 # what is observed unless the study says it: the first that all runs have
 OBSERVED = (
     "required_suction_Pa",
@@ -48,10 +48,21 @@ class Outcome:
 
     @property
     def rest(self) -> float | None:
-        """The penetration by weight alone (m), where suction follows it."""
-        if self.history is None or "required_suction_Pa" not in self.history:
+        """The penetration by weight alone (m), where suction follows it: where the mean
+        of the required suction passes 0, as single rows pass it again and again."""
+        if self.history is None or REQUIRED not in self.history:
             return None
-        return rest_of_run(self.history)
+        rest = rest_of_run(self.history)
+        if rest is None:
+            return None
+        depth = curve_of(self.history, REQUIRED)[0]
+        mean = values_at(self.history, REQUIRED, depth)
+        above = np.flatnonzero((mean[:-1] <= 0) & (mean[1:] > 0))
+        shares = mean[above] / (mean[above] - mean[above + 1])
+        passes: np.ndarray = depth[above] + shares * (depth[above + 1] - depth[above])
+        if not len(passes):
+            return rest
+        return float(passes[np.argmin(np.abs(passes - rest))])
 
 
 def why_failed(run: StudyRun) -> str:

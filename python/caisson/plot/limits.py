@@ -16,6 +16,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.design import plug_stability, shell
+from caisson.design.rings import Ring
 from caisson.evaluation import BOILING as BOILING_COLUMN
 from caisson.evaluation import DEPTH as DEPTH_COLUMN
 from caisson.evaluation import HEAVE as HEAVE_COLUMN
@@ -110,14 +111,23 @@ def sources_of(run: Results, found: dict[str, np.ndarray]) -> str:
 
 
 def wall_of(run: Results) -> shell.Wall | None:
-    """Return the steel wall of a caisson; None where the run does not know it."""
+    """Return the steel wall of a caisson, as thick as where it is thinnest, with its
+    rings as flat bars; None where the run does not know it."""
     sizes = ("diameter_m", "wall_thickness_m", "skirt_length_m")
     known = [run.scene.get(name) for name in sizes]
     if None in known:
         return None
+    outer, thickness, length = (float(x or 0) for x in known)
+    steps = run.parts_of_wall("wall_step", "thickness")
+    thinnest = min([thickness, *(step for (step,) in steps)])
     steel = [number_of(run, name) for name in STEEL]
     steel[-1] = steel[-1] or inf
-    return shell.Wall(*(float(x or 0) for x in known), *steel)
+    rings = run.parts_of_wall("ring", "above_tip", "width", "height")
+    stiffeners = tuple(
+        Ring(length - place - height / 2, width, height)
+        for place, width, height in reversed(rings)
+    )
+    return shell.Wall(outer, thinnest, length, *steel, stiffeners)
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
@@ -150,6 +160,30 @@ def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
         for h, p in zip(at, more)
     ]
     return np.array(found) / 1e3
+
+
+def rings_in_words(run: Results, at: np.ndarray) -> str:
+    """Return whether the check of the wall counts its rings at depths [n] (m); nothing
+    without a ring where it buckles."""
+    wall = wall_of(run)
+    within = [h for h in map(float, at) if wall and wall.stiffeners_at(h)]
+    if not wall or not within:
+        return ""
+    factor = factors_of(run)[SHELL]
+    weight = float(run.scene.get("submerged_weight_N") or 0)
+    more = shell.beyond_suction(shell.pressures_of(run, wall), wall, within)
+    counted = [
+        h
+        for h, p in zip(within, more)
+        if float.__lt__(*shell.limits_at(wall, h, weight, float(p), factor))
+    ]
+    if len(counted) == len(within):
+        return "Rings divide the wall where it buckles, as flat bars (DNV-RP-C202)."
+    where = " at every depth" if counted else ""
+    return (
+        f"Rings are not counted{where} where the wall buckles: as flat bars they lack"
+        " the area, the moment of inertia or the height that DNV-RP-C202 asks for."
+    )
 
 
 def write_pressures(path: Path, run: Results) -> Path | None:

@@ -248,7 +248,15 @@ def of_installation(
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
-        "factors": limits.sources_of(run, found.limits),
+        "factors": " ".join(
+            filter(
+                None,
+                (
+                    limits.sources_of(run, found.limits),
+                    limits.rings_in_words(run, found.depth),
+                ),
+            )
+        ),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
         "tables": installation.tables_of(found),

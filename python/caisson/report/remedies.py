@@ -122,7 +122,8 @@ class Planned:
         if limits.COMPUTED in found and np.isfinite(self.piping):
             found[limits.COMPUTED] *= piping / self.piping
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
-            wall = wall._replace(diameter=sizes.diameter, thickness=sizes.wall)
+            thickness = wall.thickness * sizes.wall / self.sizes.wall
+            wall = wall._replace(diameter=sizes.diameter, thickness=thickness)
             more = shell.beyond_suction(self.pressures, wall, [self.depth])[0]
             loads = 1e3 * sizes.weight, float(more), factors[limits.SHELL]
             found[limits.SHELL] = shell.limit_suction(wall, self.depth, *loads) / 1e3

@@ -2,8 +2,7 @@
 """A section through caisson and ground, to scale and with dimensions, as SVG."""
 import html
 import math
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
@@ -141,17 +140,37 @@ def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
             drawing.text(drawing.x(0), y, words, "middle")
 
 
-def draw_rings(
-    drawing: Drawing, scene: Mapping[str, Any], inside: float, depth: float
-) -> None:
-    """Draw the rings inside the wall (radius in m) at a depth of the tip (m)."""
-    number = 1
-    while place := scene.get(f"ring_{number}_above_tip_m"):
-        width, height = (scene[f"ring_{number}_{x}_m"] for x in ("width", "height"))
-        low = depth - place
-        for left in (-inside, inside - width):
-            drawing.box("steel", left, low - height, left + width, low)
-        number += 1
+def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None:
+    """Draw both walls from the lid (m) down to the tip at a depth (m), with their steps
+    and rings."""
+    outer, thinnest = float(run.scene["diameter_m"]) / 2, LEAST_WALL / drawing.scale
+    at_tip = max(float(run.scene["wall_thickness_m"]), thinnest)
+    steps = [(0.0, at_tip)]
+    for place, width in run.parts_of_wall("wall_step", "above_tip", "thickness"):
+        steps.append((place, max(width, thinnest)))
+    is_flush_inside = entry_of(run, f"{BODY}/Flush face") == "inner"
+
+    def faces(thickness: float) -> tuple[float, float]:
+        """Return the radii of the inner and the outer face (m)."""
+        inner = outer - (at_tip if is_flush_inside else thickness)
+        return inner, inner + thickness
+
+    tops = [depth - place for place, _ in steps[1:]] + [lid]
+    for (place, thickness), top in zip(steps, tops):
+        inner, right = faces(thickness)
+        for left in (-right, inner):
+            if place == 0:
+                drawing.wall(left, top, thickness, tip_of(run, depth))
+            else:
+                drawing.box("steel", left, top, left + thickness, depth - place)
+    for place, width, height in run.parts_of_wall(
+        "ring", "above_tip", "width", "height"
+    ):
+        inner, _ = faces([t for at, t in steps if at <= place][-1])
+        for left in (-inner, inner - width):
+            drawing.box(
+                "steel", left, depth - place - height, left + width, depth - place
+            )
 
 
 def of_run(run: Results, depth: float, rest: float | None) -> str:
@@ -167,10 +186,8 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
     draw_ground(drawing, run, radius)
     thick = max(wall, LEAST_WALL / drawing.scale)
-    for left in (-radius, radius - thick):
-        drawing.wall(left, lid, thick, tip_of(run, depth))
+    draw_walls(drawing, run, lid, depth)
     drawing.box("steel", -radius, lid - thick, radius, lid)
-    draw_rings(drawing, scene, radius - thick, depth)
     y, x = drawing.y(lid - thick) - 8, (drawing.x(-radius), drawing.x(radius))
     drawing.line("dimension", x[0], y, x[1], y)
     for end in x:
