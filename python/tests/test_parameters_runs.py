@@ -418,7 +418,7 @@ class Evaluation(WithFiles):
         for angle in (30, 36):
             force = float(row[f"dnv_most_probable_total_N [{angle}]"])
             self.assertAlmostEqual(force / 9.329274e6, 1, places=5)
-        byrne = "houlsby_byrne_low_total_force_N"
+        byrne = "houlsby_byrne_low_total_N"
         self.assertLess(float(row[f"{byrne} [30]"]), float(row[f"{byrne} [36]"]))
 
     def test_a_wrong_cone_test_stops_the_study(self) -> None:

@@ -96,7 +96,7 @@ def absent_of(found: dict[str, np.ndarray]) -> list[str]:
 
 def sources_of(run: Results, found: dict[str, np.ndarray]) -> str:
     """Return where the factors on limits come from, in a sentence."""
-    factors, given = factors_of(run), run.known.get("entries", {})
+    factors, given = factors_of(run) if found else {}, run.known.get("entries", {})
     known = {LIMITS[n].entry: (factors[n], LIMITS[n].source) for n in found}
     words = [
         f"{entry} {factor:g}"
