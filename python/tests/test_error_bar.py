@@ -380,8 +380,8 @@ class Windows(unittest.TestCase):
     }
 
     def test_choice(self) -> None:
-        """At four depths, the last of them the end, or in the middle; none where they are no shorter
-        than the way, without a wall, or without a known speed."""
+        """At four depths, the last of them the end, or one in the middle; none where
+        they are no shorter than the way, without a wall, or without a known speed."""
         found = windows.windows_of(self.THIN, 4)
         depths = [window.depth for window in found]
         np.testing.assert_allclose(depths, [2.25, 4, 5.75, 7.5])

@@ -120,8 +120,8 @@ def wall_of(run: Results) -> shell.Wall | None:
     outer, thickness, length = (float(x or 0) for x in known)
     steps = run.parts_of_wall("wall_step", "thickness")
     thinnest = min([thickness, *(step for (step,) in steps)])
-    steel = [number_of(run, name) for name in STEEL]
-    steel[-1] = steel[-1] or inf
+    strength, modulus, fixity, spacing = (number_of(run, name) for name in STEEL)
+    steel = strength, modulus, fixity, spacing or inf
     rings = run.parts_of_wall("ring", "above_tip", "width", "height")
     stiffeners = tuple(
         Ring(length - place - height / 2, width, height)

@@ -148,7 +148,7 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
     steps = [(0.0, at_tip)]
     for place, width in run.parts_of_wall("wall_step", "above_tip", "thickness"):
         steps.append((place, max(width, thinnest)))
-    is_flush_inside = entry_of(run, f"{BODY}/Flush face") == "inner"
+    is_flush_inside = run.entry(f"{BODY}/Flush face") == "inner"
 
     def faces(thickness: float) -> tuple[float, float]:
         """Return the radii of the inner and the outer face (m)."""
