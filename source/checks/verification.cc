@@ -325,17 +325,17 @@ namespace CaissonMPM
       return line;
     }
 
-    std::string
+    Json
     json_of(const Check &check, const Comparison &c, const bool pass)
     {
-      return Json::flat_object({{"check", Json::text(check.head)},
-                                {"mode", Json::text(check.mode)},
-                                {"quantity", Json::text(check.name)},
-                                {"computed", Json::number(c.computed)},
-                                {"exact", Json::number(c.exact)},
-                                {"relative_error", Json::number(c.error)},
-                                {"tolerance", Json::number(check.tolerance)},
-                                {"pass", Json::boolean(pass)}});
+      return {{"check", check.head},
+              {"mode", check.mode},
+              {"quantity", check.name},
+              {"computed", c.computed},
+              {"exact", c.exact},
+              {"relative_error", c.error},
+              {"tolerance", check.tolerance},
+              {"pass", pass}};
     }
   } // namespace
 
@@ -392,7 +392,7 @@ namespace CaissonMPM
   {
     const bool   full     = console.get_verbosity() == Console::Verbosity::full;
     unsigned int n_failed = 0;
-    std::vector<std::string> items;
+    Json         items    = Json::array();
     for (const std::string &text : texts_of(entry))
       {
         const Check      check = parse_check(text, records.names());
@@ -402,8 +402,7 @@ namespace CaissonMPM
         items.push_back(json_of(check, c, pass));
         console.message(line_of(check, c, pass, full));
       }
-    write_atomically(directory + "/verification.json",
-                     Json::list(items) + "\n");
+    write_atomically(directory + "/verification.json", text_of(items));
     if (n_failed > 0)
       console.failure(to_text(n_failed) + " of " + to_text(items.size()) +
                       " checks failed");
