@@ -34,6 +34,7 @@ from caisson.table import number
 from caisson.error import error_bar
 from lab import outcome
 from lab.machine import machine
+from lab.verification import damped_wave
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
@@ -61,7 +62,9 @@ def find_check(run: StudyRun, head: str) -> dict[str, Any]:
     if run.status is None or run.trouble:
         raise StudyError(str(run.trouble))
     try:
-        checks = run.results.checks
+        checks = dict(run.results.checks)
+        if head in damped_wave.EXACT:
+            checks.update(damped_wave.checks(run.results))
     except ResultsError as error:
         raise StudyError(str(error)) from error
     if head not in checks:

@@ -20,11 +20,12 @@ from matplotlib.figure import Figure
 from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
-from caisson.study import Options, Study, StudyRun
+from caisson.study import Options, Study, StudyError, StudyRun
 from caisson import disk
 from caisson.error.error_bar import refinement_of
 from caisson.error.mesh_error import mesh_error
 from lab.curves import relative_error
+from lab.verification import find_check
 
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
@@ -57,8 +58,8 @@ def error_of(study: Study, run: StudyRun) -> float | None:
         if "check" not in study.keys:
             reference = forces(study, study.run(REFERENCE))
             return relative_error(forces(study, run), reference)
-        return float(run.results.checks[study.keys["check"]]["relative_error"])
-    except (ResultsError, KeyError, TypeError):
+        return float(find_check(run, study.keys["check"])["relative_error"])
+    except (ResultsError, StudyError, KeyError, TypeError):
         return None
 
 

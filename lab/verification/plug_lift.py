@@ -44,6 +44,7 @@ from lab.verification.limit_analysis import (
     limit_load,
     soil_of,
 )
+from lab.verification.options import declare
 
 
 @dataclass(frozen=True)
@@ -117,27 +118,15 @@ def bearing_factor(load: float, caisson: Caisson, strength: Strength) -> float:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of scripts/lab plug-lift."""
-    add = parser.add_argument
-    add(
-        "--depth",
-        type=float,
-        nargs="+",
-        default=[0.25, 0.5, 1.0],
-        help="of the tip (D inside)",
+    declare(
+        parser,
+        depth=([0.25, 0.5, 1.0], "of the tip (D inside)"),
+        adhesion=([0, 0.5, 1.0], "over strength"),
+        gradient=([0, 2.0], "of the strength (su0/D)"),
+        thickness=(0.0, "of the wall (radii inside)"),
+        cells=(16, "of the finest mesh, inside (none)"),
+        extent=(4.0, "of the soil beyond the tip (radii)"),
     )
-    add(
-        "--adhesion", type=float, nargs="+", default=[0, 0.5, 1.0], help="over strength"
-    )
-    add(
-        "--gradient",
-        type=float,
-        nargs="+",
-        default=[0, 2.0],
-        help="of the strength (su0/D)",
-    )
-    add("--thickness", type=float, default=0, help="of the wall (radii inside)")
-    add("--cells", type=int, default=16, help="of the finest mesh, inside (none)")
-    add("--extent", type=float, default=4, help="of the soil beyond the tip (radii)")
 
 
 def main(options: argparse.Namespace) -> int:

@@ -33,6 +33,7 @@ from lab.verification.limit_analysis import (
     limit_load,
     soil_of,
 )
+from lab.verification.options import declare
 
 
 @dataclass(frozen=True)
@@ -76,22 +77,15 @@ def bearing_factor(ring: Ring, n: int) -> float:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of scripts/lab ring-bearing."""
-    add = parser.add_argument
-    add(
-        "--width",
-        type=float,
-        nargs="+",
-        default=[0.25],
-        help="of the ring (inner radii of the tube)",
+    declare(
+        parser,
+        width=([0.25], "of the ring (inner radii of the tube)"),
+        column=(
+            [0.0, 0.1, 0.3, 0.6],
+            "of clay above the lower face of the ring (inner radii of the tube)",
+        ),
+        cells=(16, "of the finest mesh, at the ring (none)"),
     )
-    add(
-        "--column",
-        type=float,
-        nargs="+",
-        default=[0.0, 0.1, 0.3, 0.6],
-        help="of clay above the lower face of the ring (inner radii of the tube)",
-    )
-    add("--cells", type=int, default=16, help="of the finest mesh, at the ring (none)")
 
 
 def main(options: argparse.Namespace) -> int:

@@ -62,6 +62,7 @@ from lab.verification.bearing_capacity import (
     load_on_base,
     load_on_ray,
 )
+from lab.verification.options import declare
 
 # the width of the tip in the net, whose edge is at r = 1: beyond the other edge there
 # must be room for C
@@ -290,12 +291,14 @@ def flowing(phi: float, depth: float, gradient: float) -> Tip:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of scripts/lab tip-capacity."""
-    add = parser.add_argument
-    add("--phi", type=float, default=30, help="friction angle (degrees)")
-    add("--delta", type=float, default=20, help="wall friction of a wedge (degrees)")
-    add("--beta", type=float, default=45, help="angle of its faces (degrees)")
-    add("--depth", type=float, default=5, help="of the tip under flow, over its width")
-    add("--lines", type=int, default=40, help="lines of the finest net (none)")
+    declare(
+        parser,
+        phi=(30.0, "friction angle (degrees)"),
+        delta=(20.0, "wall friction of a wedge (degrees)"),
+        beta=(45.0, "angle of its faces (degrees)"),
+        depth=(5.0, "of the tip under flow, over its width"),
+        lines=(40, "lines of the finest net (none)"),
+    )
 
 
 def main(options: argparse.Namespace) -> int:

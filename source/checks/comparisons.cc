@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/checks/comparisons.h>
-#include <caisson_mpm/checks/damped_wave.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,25 +67,19 @@ namespace CaissonMPM
       return worst;
     }
 
+    // ---------------------------------------------------------- of points
+
     Comparison
-    worst_over_largest(const Values &computed, const Values &exact)
+    max(const Samples &s)
     {
-      const double scale = largest_magnitude(exact);
-      return worst_of(computed, exact, [scale](const std::size_t) {
+      const double scale = largest_magnitude(s.exact);
+      return worst_of(s.computed, s.exact, [scale](const std::size_t) {
         return scale;
       });
     }
 
-    // ---------------------------------------------------------- of points
-
     Comparison
-    max(const PointSamples &s)
-    {
-      return worst_over_largest(s.computed, s.exact);
-    }
-
-    Comparison
-    pointwise(const PointSamples &s)
+    pointwise(const Samples &s)
     {
       return worst_of(s.computed, s.exact, [&s](const std::size_t i) {
         return s.exact[i];
@@ -94,13 +87,13 @@ namespace CaissonMPM
     }
 
     Comparison
-    mean(const PointSamples &s)
+    mean(const Samples &s)
     {
       return compare(mean_of(s.computed, s.volume), mean_of(s.exact, s.volume));
     }
 
     Comparison
-    rms(const PointSamples &s)
+    rms(const Samples &s)
     {
       Values squares;
       for (std::size_t i = 0; i < s.computed.size(); ++i)
@@ -110,7 +103,7 @@ namespace CaissonMPM
     }
 
     Comparison
-    spread(const PointSamples &s)
+    spread(const Samples &s)
     {
       const auto [least, most] =
         std::minmax_element(s.computed.begin(), s.computed.end());
@@ -123,43 +116,12 @@ namespace CaissonMPM
     // ---------------------------------------------------------- of series
 
     Comparison
-    trace(const SeriesSamples &s)
+    drift(const Samples &s)
     {
-      return worst_over_largest(s.computed.value, s.exact);
-    }
-
-    Comparison
-    final(const SeriesSamples &s)
-    {
-      return compare(s.computed.value.back(), s.exact.back());
-    }
-
-    Comparison
-    average(const SeriesSamples &s)
-    {
-      return compare(mean_of(s.computed.value), mean_of(s.exact));
-    }
-
-    Comparison
-    frequency(const SeriesSamples &s)
-    {
-      return compare(fit_damped_wave(s.computed).frequency, s.exact.back());
-    }
-
-    Comparison
-    amplitude(const SeriesSamples &s)
-    {
-      return compare(fit_damped_wave(s.computed).left_after_two_periods(),
-                     s.exact.back());
-    }
-
-    Comparison
-    drift(const SeriesSamples &s)
-    {
-      const Values start(s.computed.value.size(), s.computed.value.front());
+      const Values start(s.computed.size(), s.computed.front());
       Comparison   worst =
-        worst_of(s.computed.value, start, [](const std::size_t) { return 0.; });
-      worst.error = over(largest_magnitude(s.computed.value), worst.error);
+        worst_of(s.computed, start, [](const std::size_t) { return 0.; });
+      worst.error = over(largest_magnitude(s.computed), worst.error);
       return worst;
     }
 
@@ -173,53 +135,46 @@ namespace CaissonMPM
         return {value, bound, 0.};
       return compare(value, bound);
     }
-
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-
-    Comparison
-    below(const SeriesSamples &s)
-    {
-      return outside(s.computed.value.back(), -infinity, s.exact.back());
-    }
-
-    Comparison
-    above(const SeriesSamples &s)
-    {
-      return outside(s.computed.value.back(), s.exact.back(), infinity);
-    }
-
-    Comparison
-    between(const SeriesSamples &s)
-    {
-      return outside(s.computed.value.back(), s.exact.back(), s.upper.back());
-    }
   } // namespace
 
-  const PointModes &
-  point_modes()
+  const std::map<std::string, CheckMode> &
+  check_modes()
   {
-    static const PointModes modes = {
-      {"max", {max, CheckForm::exact}},
-      {"pointwise", {pointwise, CheckForm::exact}},
-      {"mean", {mean, CheckForm::exact}},
-      {"rms", {rms, CheckForm::exact}},
-      {"spread", {spread, CheckForm::tolerance}}};
-    return modes;
-  }
-
-  const SeriesModes &
-  series_modes()
-  {
-    static const SeriesModes modes = {
-      {"trace", {trace, CheckForm::exact}},
-      {"final", {final, CheckForm::exact}},
-      {"average", {average, CheckForm::exact}},
-      {"frequency", {frequency, CheckForm::exact}},
-      {"amplitude", {amplitude, CheckForm::exact}},
-      {"drift", {drift, CheckForm::tolerance}},
-      {"below", {below, CheckForm::bound}},
-      {"above", {above, CheckForm::bound}},
-      {"between", {between, CheckForm::bounds}}};
+    using S                        = const Samples &;
+    constexpr double      infinity = std::numeric_limits<double>::infinity();
+    constexpr const char *largest  = "the largest exact value",
+                         *of_mean  = "the mean exact value";
+    static const std::map<std::string, CheckMode> modes = {
+      {"max", {max, CheckForm::exact, true, largest}},
+      {"pointwise", {pointwise, CheckForm::exact, true}},
+      {"mean", {mean, CheckForm::exact, true, of_mean}},
+      {"rms", {rms, CheckForm::exact, true, largest}},
+      {"spread", {spread, CheckForm::tolerance, true, "the mean"}},
+      {"trace", {max, CheckForm::exact, false, largest}},
+      {"final",
+       {[](S s) { return compare(s.computed.back(), s.exact.back()); },
+        CheckForm::exact,
+        false}},
+      {"average", {mean, CheckForm::exact, false, of_mean}},
+      {"drift", {drift, CheckForm::tolerance, false, "the largest value"}},
+      {"below",
+       {[](S s) {
+          return outside(s.computed.back(), -infinity, s.exact.back());
+        },
+        CheckForm::bound,
+        false}},
+      {"above",
+       {[](S s) {
+          return outside(s.computed.back(), s.exact.back(), infinity);
+        },
+        CheckForm::bound,
+        false}},
+      {"between",
+       {[](S s) {
+          return outside(s.computed.back(), s.exact.back(), s.upper.back());
+        },
+        CheckForm::bounds,
+        false}}};
     return modes;
   }
 } // namespace CaissonMPM

@@ -14,7 +14,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <vector>
 
@@ -26,12 +25,15 @@ namespace CaissonMPM
   {
     const std::string name_of_entry = "Verification/Checks";
 
+    const char *const how_to_write =
+      "a check is written as mode quantity : exact solution : tolerance, for "
+      "instance max displacement_z : -0.01*z : 1e-3.";
+
     struct Check
     {
       std::string head; // what stands before the first colon
       std::string mode, name;
-      CheckForm   form      = CheckForm::exact;
-      bool        of_points = false;
+      CheckMode   how = {};
       std::string region;       // an expression, or empty
       std::string exact, upper; // expressions; upper: of between only
       double      begin = 0.;   // of the records
@@ -41,13 +43,6 @@ namespace CaissonMPM
       double      tolerance = 0.;
     };
 
-    /** Whether the check gives one or two bounds instead of a tolerance. */
-    bool
-    has_bounds(const Check &check)
-    {
-      return check.form == CheckForm::bound || check.form == CheckForm::bounds;
-    }
-
     std::string
     place_of(const std::string &text)
     {
@@ -55,15 +50,6 @@ namespace CaissonMPM
     }
 
     // ---------------------------------------------------------- reading
-
-    std::vector<std::string>
-    all_modes()
-    {
-      auto result = names_of(point_modes());
-      for (const std::string &mode : names_of(series_modes()))
-        result.push_back(mode);
-      return result;
-    }
 
     /** Mode, name, and where REGION or from T to T. */
     void
@@ -77,11 +63,9 @@ namespace CaissonMPM
         throw BadInput(place + "expected a mode and a quantity or a series "
                                "before the first colon, for instance max "
                                "displacement_z.");
-      check_known(check.mode, all_modes(), place, "mode");
-      check.of_points = point_modes().count(check.mode) > 0;
-      check.form      = check.of_points ? point_modes().at(check.mode).form :
-                                          series_modes().at(check.mode).form;
-      if (check.of_points)
+      check_known(check.mode, names_of(check_modes()), place, "mode");
+      check.how = check_modes().at(check.mode);
+      if (check.how.of_points)
         point_quantity(check.name, place);
       else
         check_known(check.name,
@@ -91,7 +75,7 @@ namespace CaissonMPM
       for (std::string word; in >> word;)
         {
           std::string value;
-          if (check.of_points && word == "where")
+          if (check.how.of_points && word == "where")
             {
               std::getline(in, check.region);
               check.region = Utilities::trim(check.region);
@@ -101,13 +85,13 @@ namespace CaissonMPM
                                "to. Write an expression that is not 0 "
                                "in it.");
             }
-          else if (!check.of_points && (word == "from" || word == "to"))
+          else if (!check.how.of_points && (word == "from" || word == "to"))
             {
               in >> value;
               (word == "from" ? check.begin : check.end) =
                 parse_number(value, place, "time");
             }
-          else if (!check.of_points && word == "until")
+          else if (!check.how.of_points && word == "until")
             {
               in >> check.until >> value;
               check_known(check.until, series, place, "series");
@@ -136,24 +120,23 @@ namespace CaissonMPM
       const bool        two   = colon != std::string::npos;
       const std::string last =
         Utilities::trim(text.substr(two ? colon + 1 : 0));
-      const bool has_two =
-        check.form == CheckForm::exact || check.form == CheckForm::bounds;
+      const bool has_two = check.how.form == CheckForm::exact ||
+                           check.how.form == CheckForm::bounds;
       if (has_two && !two)
-        throw BadInput(
-          place +
-          (check.form == CheckForm::bounds ?
-             "it is written as between series : lower : upper." :
-             "it is written as mode quantity : exact solution : tolerance, for "
-             "instance max displacement_z : -0.01*z : 1e-3."));
+        throw BadInput(place +
+                       (check.how.form == CheckForm::bounds ?
+                          "it is written as between series : lower : upper." :
+                          how_to_write));
       if (has_two)
         check.exact = Utilities::trim(text.substr(0, colon));
       else
         check.exact =
-          check.form == CheckForm::bound ? Utilities::trim(text) : "0";
-      check.upper = check.form == CheckForm::bounds ? last : "0";
+          check.how.form == CheckForm::bound ? Utilities::trim(text) : "0";
+      check.upper = check.how.form == CheckForm::bounds ? last : "0";
       Expression(check.exact, place + "the exact solution");
       Expression(check.upper, place + "the upper bound");
-      if (has_bounds(check))
+      if (check.how.form == CheckForm::bound ||
+          check.how.form == CheckForm::bounds)
         return;
       check.tolerance = parse_number(last, place, "tolerance");
       if (!(check.tolerance > 0.))
@@ -167,10 +150,7 @@ namespace CaissonMPM
       const std::string place = place_of(text);
       const auto        colon = text.find(':');
       if (colon == std::string::npos)
-        throw BadInput(place +
-                       "a check is written as mode quantity : exact solution : "
-                       "tolerance, for instance max displacement_z : -0.01*z : "
-                       "1e-3.");
+        throw BadInput(place + how_to_write);
       Check check;
       check.head = Utilities::trim(text.substr(0, colon));
       parse_head(place, check, series);
@@ -197,7 +177,7 @@ namespace CaissonMPM
                        " to compare. Choose another one.");
     }
 
-    PointSamples
+    Samples
     sample_points(const Check     &check,
                   const AllPoints &points,
                   const double     time)
@@ -206,7 +186,7 @@ namespace CaissonMPM
       const Expression  exact(check.exact, place);
       const Expression region(check.region.empty() ? "1" : check.region, place);
       const PointQuantity value = point_quantity(check.name, "");
-      PointSamples        samples;
+      Samples             samples;
       points.for_each([&](const MaterialPoint &p) {
         if (value.is_missing(p) || region(p.initial_position, time) == 0.)
           return;
@@ -241,19 +221,20 @@ namespace CaissonMPM
         }
     }
 
-    SeriesSamples
+    Samples
     sample_records(const Check &check, const Records &records)
     {
       const std::string place = place_of(check.head);
       const Expression  exact(check.exact, place);
       const Expression  upper(check.upper, place);
-      SeriesSamples     samples;
-      samples.computed = records.series(check.name, check.begin, check.end);
+      Series series = records.series(check.name, check.begin, check.end);
       if (!check.until.empty())
         cut(check,
             records.series(check.until, check.begin, check.end).value,
-            samples.computed);
-      for (const double time : samples.computed.time)
+            series);
+      Samples samples;
+      samples.computed = series.value;
+      for (const double time : series.time)
         {
           samples.exact.push_back(exact(Point<2>(), time));
           samples.upper.push_back(upper(Point<2>(), time));
@@ -263,47 +244,23 @@ namespace CaissonMPM
       return samples;
     }
 
-    Comparison
-    compare(const Check     &check,
-            const AllPoints &points,
-            const Records   &records,
-            const double     time)
-    {
-      return check.of_points ? point_modes()
-                                 .at(check.mode)
-                                 .compare(sample_points(check, points, time)) :
-                               series_modes()
-                                 .at(check.mode)
-                                 .compare(sample_records(check, records));
-    }
-
-    /** What the error of a check is divided by, see comparisons.cc; nothing
-     * where that is 0. */
+    /** What the error of a check is divided by; nothing where that is 0. */
     std::string
     reference_of(const Check &check, const Comparison &c)
     {
-      static const std::map<std::string, std::string> references = {
-        {"max", "the largest exact value"},
-        {"rms", "the largest exact value"},
-        {"trace", "the largest exact value"},
-        {"drift", "the largest value"},
-        {"spread", "the mean"},
-        {"mean", "the mean exact value"},
-        {"average", "the mean exact value"}};
-      if (check.form == CheckForm::bound || check.form == CheckForm::bounds ||
+      if (check.how.form == CheckForm::bound ||
+          check.how.form == CheckForm::bounds ||
           c.error == std::abs(c.computed - c.exact))
         return "";
-      const auto found = references.find(check.mode);
-      return " of " +
-             (found == references.end() ? "the exact value" : found->second);
+      return std::string(" of ") + check.how.scale;
     }
 
     std::string
     demand_of(const Check &check)
     {
-      if (check.form == CheckForm::bounds)
+      if (check.how.form == CheckForm::bounds)
         return " " + check.exact + " and " + check.upper;
-      if (check.form == CheckForm::bound)
+      if (check.how.form == CheckForm::bound)
         return " " + check.exact;
       return ": within " + to_text(check.tolerance, 6);
     }
@@ -325,17 +282,17 @@ namespace CaissonMPM
       return line;
     }
 
-    std::string
+    Json
     json_of(const Check &check, const Comparison &c, const bool pass)
     {
-      return Json::flat_object({{"check", Json::text(check.head)},
-                                {"mode", Json::text(check.mode)},
-                                {"quantity", Json::text(check.name)},
-                                {"computed", Json::number(c.computed)},
-                                {"exact", Json::number(c.exact)},
-                                {"relative_error", Json::number(c.error)},
-                                {"tolerance", Json::number(check.tolerance)},
-                                {"pass", Json::boolean(pass)}});
+      return {{"check", check.head},
+              {"mode", check.mode},
+              {"quantity", check.name},
+              {"computed", c.computed},
+              {"exact", c.exact},
+              {"relative_error", c.error},
+              {"tolerance", check.tolerance},
+              {"pass", pass}};
     }
   } // namespace
 
@@ -356,9 +313,8 @@ namespace CaissonMPM
       "follow the quantity. A check of a series, which is an observation or a "
       "column of history.csv, is written as mode series : exact solution : "
       "tolerance, with the modes trace (the largest error over the largest "
-      "exact value), final (of the last record), average (over the records), "
-      "and frequency (rad/s) and amplitude (exp(-g T) after two periods T) of "
-      "the best fit c + exp(-g t)*(a*cos(w*t) + b*sin(w*t)), as drift series : "
+      "exact value), final (of the last record) and average (over the "
+      "records), as drift series : "
       "tolerance (the largest change since the start over the largest value), "
       "or, for the last record, as below series : bound, above series : bound "
       "or between series : lower : upper; from T, to T and until SERIES VALUE "
@@ -392,18 +348,19 @@ namespace CaissonMPM
   {
     const bool   full     = console.get_verbosity() == Console::Verbosity::full;
     unsigned int n_failed = 0;
-    std::vector<std::string> items;
+    Json         items    = Json::array();
     for (const std::string &text : texts_of(entry))
       {
         const Check      check = parse_check(text, records.names());
-        const Comparison c     = compare(check, points, records, time);
-        const bool       pass  = c.error <= check.tolerance;
+        const Comparison c     = check.how.compare(
+          check.how.of_points ? sample_points(check, points, time) :
+                                sample_records(check, records));
+        const bool pass = c.error <= check.tolerance;
         n_failed += !pass;
         items.push_back(json_of(check, c, pass));
         console.message(line_of(check, c, pass, full));
       }
-    write_atomically(directory + "/verification.json",
-                     Json::list(items) + "\n");
+    write_atomically(directory + "/verification.json", text_of(items));
     if (n_failed > 0)
       console.failure(to_text(n_failed) + " of " + to_text(items.size()) +
                       " checks failed");

@@ -3,6 +3,9 @@
 #include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/output/check_text.h>
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -27,14 +30,10 @@ namespace CaissonMPM
               const std::string              &place,
               const std::string              &kind)
   {
-    std::string list;
-    for (const std::string &entry : known)
-      {
-        if (entry == name)
-          return;
-        list += (list.empty() ? "" : ", ") + entry;
-      }
+    if (std::find(known.begin(), known.end(), name) != known.end())
+      return;
     throw BadInput(place + "there is no " + kind + " \"" + name + "\", only " +
-                   list + "." + did_you_mean(nearest_names(name, known)));
+                   boost::algorithm::join(known, ", ") + "." +
+                   did_you_mean(nearest_names(name, known)));
   }
 } // namespace CaissonMPM

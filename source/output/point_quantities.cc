@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/user_point.h>
 #include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/point_quantities.h>
 
@@ -39,12 +40,12 @@ namespace CaissonMPM
 
     /** The field, whose values cannot be merged, and its function. */
     NamedQuantity
-    derived(const char                   *owner,
-            const char                   *component,
-            const char                   *unit,
-            const InFrames                in_frames,
-            const char                   *text,
-            const PointQuantity::Function function)
+    derived(const char                    *owner,
+            const char                    *component,
+            const char                    *unit,
+            const InFrames                 in_frames,
+            const char                    *text,
+            const PointQuantity::Function &function)
     {
       return {{owner, component, unit, Merge::by_mass, in_frames, text},
               function};
@@ -59,7 +60,10 @@ namespace CaissonMPM
         const auto *const begin = reinterpret_cast<const char *>(&any);
         const std::size_t offset =
           reinterpret_cast<const char *>(&value) - begin;
-        result.push_back({field, PointQuantity(offset)});
+        result.push_back({field, PointQuantity([offset](P p) {
+                            return *reinterpret_cast<const double *>(
+                              reinterpret_cast<const char *>(&p) + offset);
+                          })});
       });
       return result;
     }
@@ -112,6 +116,17 @@ namespace CaissonMPM
               "numbers change with depth",
               [](P p) { return double(p.material); })};
   } // namespace
+
+  PointQuantity
+  PointQuantity::state_variable(const unsigned int i)
+  {
+    const unsigned int place = Kernels::UserState::variables + i;
+    PointQuantity      result([place](P p) {
+      return place < p.user_state.size() ? p.user_state[place] : std::nan("");
+    });
+    result.is_state = true;
+    return result;
+  }
 
   std::string
   with_unit(const std::string &name, const std::string &unit)

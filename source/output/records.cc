@@ -6,7 +6,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace CaissonMPM
 {
@@ -116,11 +115,5 @@ namespace CaissonMPM
           result.value.push_back(row[column]);
         }
     return result;
-  }
-
-  Series
-  Records::series(const std::string &name) const
-  {
-    return series(name, 0., std::numeric_limits<double>::max());
   }
 } // namespace CaissonMPM

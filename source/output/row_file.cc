@@ -6,6 +6,8 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,12 +20,9 @@ namespace CaissonMPM
   namespace
   {
     std::string
-    join(const std::vector<std::string> &words)
+    line_of(const std::vector<std::string> &words)
     {
-      std::string line;
-      for (const std::string &word : words)
-        line += (line.empty() ? "" : ",") + word;
-      return line + "\n";
+      return boost::algorithm::join(words, ",") + "\n";
     }
 
     std::vector<double>
@@ -41,7 +40,7 @@ namespace CaissonMPM
                    const std::vector<std::string> &columns,
                    const int                       digits)
     : path(path)
-    , header(join(columns))
+    , header(line_of(columns))
     , n_columns(columns.size())
     , digits(digits)
   {}
@@ -95,7 +94,7 @@ namespace CaissonMPM
     std::vector<std::string> words;
     for (const double value : values)
       words.push_back(to_text(value, digits));
-    const std::string line = join(words);
+    const std::string line = line_of(words);
     if (std::fwrite(line.data(), 1, line.size(), file.get()) != line.size())
       {
         const int error = errno;

@@ -2,7 +2,7 @@
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
-#include <caisson_mpm/output/frame_text.h>
+#include <caisson_mpm/output/frame_data.h>
 #include <caisson_mpm/output/visualization.h>
 #include <caisson_mpm/output/vtu_file.h>
 
@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <regex>
 #include <sstream>
 
 namespace CaissonMPM
@@ -34,18 +35,6 @@ namespace CaissonMPM
       return name + buffer;
     }
 
-    /** The value of name="..." in an element, or nothing. */
-    std::string
-    attribute(const std::string &element, const std::string &name)
-    {
-      const std::string begin = " " + name + "=\"";
-      const auto        start = element.find(begin);
-      if (start == std::string::npos)
-        return "";
-      const auto value = start + begin.size();
-      return element.substr(value, element.find('"', value) - value);
-    }
-
     /** Times differ by rounding where they come from a file. */
     bool
     before(const double a, const double b)
@@ -58,28 +47,18 @@ namespace CaissonMPM
     read_series(const std::string &path)
     {
       std::vector<std::pair<double, std::string>> frames;
-      std::istringstream                          lines(read_text(path));
-      for (std::string line; std::getline(lines, line);)
-        {
-          const std::string file = attribute(line, "file");
-          const std::string time = attribute(line, "timestep");
-          if (!file.empty() && !time.empty())
-            frames.emplace_back(std::strtod(time.c_str(), nullptr), file);
-        }
+      const std::string                           text = read_text(path);
+      const std::regex element(R"rx(timestep="([^"]+)".*file="([^"]+)")rx");
+      for (std::sregex_iterator i(text.begin(), text.end(), element), end;
+           i != end;
+           ++i)
+        frames.emplace_back(std::strtod(i->str(1).c_str(), nullptr), i->str(2));
       return frames;
     }
 
     // a piece takes some hundred bytes of memory for each point
     constexpr unsigned long long points_per_piece = 100000;
 
-    /** The largest number of pieces that a rank needs for its points.
-     * Collective. */
-    unsigned int
-    n_pieces(const MaterialPoints &points, const MPI_Comm communicator)
-    {
-      const unsigned int own = points.n_points() / points_per_piece + 1;
-      return Utilities::MPI::max(own, communicator);
-    }
   } // namespace
 
   Visualization::Visualization(const std::string &directory)
@@ -129,34 +108,32 @@ namespace CaissonMPM
     drop_frames_from(time);
     const unsigned int number       = next_number();
     const MPI_Comm     communicator = grid.communicator();
-    const FrameText    text(grid, points, soil, with_pore_pressure, time);
-    const auto         write =
-      [&](const Series &series, const unsigned int n, const auto &make) {
-        const std::string file = numbered(series.name, number) + ".vtu";
-        write_vtu_file(directory + "/" + file, communicator, n, make);
-        return file;
-      };
-
-    auto &[of_points, of_grid, of_body] = all_series;
-    const std::string point_file =
-      write(of_points, n_pieces(points, communicator), [&](const auto i) {
-        return text.of_points(i * points_per_piece, (i + 1) * points_per_piece);
-      });
-    const std::string grid_file =
-      write(of_grid, 1, [&](const unsigned int) { return text.of_cells(); });
-    // the first rank knows all of the body
-    const std::string body_text = text.of_body(body);
-    const std::string body_file =
-      body_text.empty() ? "" : write(of_body, 1, [&](const unsigned int) {
-        return grid.is_first_rank() ? body_text : "";
-      });
-
-    const double penetration =
+    const FrameData    data(grid, points, soil, with_pore_pressure);
+    const double       penetration =
       body.shape().exists() ? body.penetration() : no_penetration;
-    of_points.frames.push_back({time, point_file, penetration});
-    of_grid.frames.push_back({time, grid_file, penetration});
-    if (!body_file.empty())
-      of_body.frames.push_back({time, body_file, penetration});
+    std::array<Frame, 3> frames;
+    const auto           write =
+      [&](const unsigned int i, const unsigned int n, const auto &make) {
+        const std::string file = numbered(all_series[i].name, number) + ".vtu";
+        write_vtu_file(directory + "/" + file, communicator, time, n, make);
+        frames[i] = {time, file, penetration};
+      };
+    const unsigned int own      = points.n_points() / points_per_piece + 1,
+                       n_pieces = Utilities::MPI::max(own, communicator);
+    write(0, n_pieces, [&](const unsigned int i) {
+      return data.of_points(i * points_per_piece, (i + 1) * points_per_piece);
+    });
+    write(1, 1, [&](const unsigned int) { return data.of_cells(); });
+    // the first rank knows all of the body
+    const VtuPiece section = data.of_body(body);
+    if (section.n_cells() > 0)
+      write(2, 1, [&](const unsigned int) {
+        return grid.is_first_rank() ? section : VtuPiece();
+      });
+    // a frame is listed when all of its files are complete
+    for (unsigned int i = 0; i < frames.size(); ++i)
+      if (!frames[i].file.empty())
+        all_series[i].frames.push_back(frames[i]);
     if (grid.is_first_rank())
       for (const Series &series : all_series)
         write_series(series);

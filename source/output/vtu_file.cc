@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/vtu_file.h>
 
-#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <zlib.h>
+
+#include <optional>
 
 namespace CaissonMPM
 {
@@ -10,121 +16,127 @@ namespace CaissonMPM
 
   namespace
   {
-    constexpr int tag_of_pieces = 4711;
-
-    /**
-     * Puts pieces together. An unstructured grid may have any number of
-     * elements Piece; deal.II writes a file with one, and what is before and
-     * after it is the same in all files of a frame.
-     */
-    class PiecewiseFile
+    /** Return the bytes in base 64. */
+    std::string
+    encoded(const void *bytes, const std::size_t size)
     {
-    public:
-      explicit PiecewiseFile(const std::string &path)
-        : file(path)
-      {}
+      const auto *const first = static_cast<const unsigned char *>(bytes);
+      return Utilities::encode_base64(
+        std::vector<unsigned char>(first, first + size));
+    }
 
-      /** Add what is in a file of one piece; nothing if there is no text. */
-      void
-      append(const std::string &text)
-      {
-        if (text.empty())
-          return;
-        const auto begin = text.find("<Piece "), end = text.rfind(end_of_piece);
-        AssertThrow(begin != std::string::npos && end != std::string::npos,
-                    ExcInternalError());
-        const auto after = end + end_of_piece.size();
-        if (head.empty())
-          {
-            head = text.substr(0, begin);
-            tail = text.substr(after);
-            file.append(head);
-          }
-        // some ranks have no points, and nothing is lost without their pieces
-        if (text.compare(begin, empty.size(), empty) != 0)
-          file.append(text.substr(begin, after - begin) + "\n");
-      }
-
-      /** Return 0 or an errno. */
-      int
-      finish()
-      {
-        file.append(tail);
-        return file.finish();
-      }
-
-    private:
-      const std::string end_of_piece = "</Piece>",
-                        empty        = "<Piece NumberOfPoints=\"0\"";
-      AtomicFile  file;
-      std::string head, tail;
-    };
-
-    void
-    send_to_first(const std::string &text, const MPI_Comm communicator)
+    /** Return an array as one compressed block, after its sizes. */
+    template <typename Number>
+    std::string
+    element(const std::string         &type,
+            const std::string         &name,
+            const unsigned int         n_components,
+            const std::vector<Number> &values)
     {
-      const int error = MPI_Send(text.data(),
-                                 static_cast<int>(text.size()),
-                                 MPI_CHAR,
-                                 0,
-                                 tag_of_pieces,
-                                 communicator);
-      AssertThrowMPI(error);
+      const std::size_t          size = values.size() * sizeof(Number);
+      uLongf                     n    = compressBound(size);
+      std::vector<unsigned char> block(n);
+      const int                  error =
+        compress2(block.data(),
+                  &n,
+                  reinterpret_cast<const Bytef *>(values.data()),
+                  size,
+                  Z_BEST_SPEED);
+      AssertThrow(error == Z_OK, ExcInternalError());
+      const std::uint32_t all = size, head[] = {1, all, all, std::uint32_t(n)};
+      return R"(<DataArray type=")" + type + R"(" Name=")" + name +
+             R"(" NumberOfComponents=")" + to_text(n_components) +
+             "\" format=\"binary\">\n" + encoded(head, sizeof(head)) +
+             encoded(block.data(), n) + "\n</DataArray>\n";
     }
 
     std::string
-    receive_from(const int rank, const MPI_Comm communicator)
+    elements(const std::vector<VtuPiece::Array> &arrays)
     {
-      MPI_Status status;
-      int        error = MPI_Probe(rank, tag_of_pieces, communicator, &status);
-      AssertThrowMPI(error);
-      int size = 0;
-      error    = MPI_Get_count(&status, MPI_CHAR, &size);
-      AssertThrowMPI(error);
-      std::string text(size, ' ');
-      error = MPI_Recv(text.data(),
-                       size,
-                       MPI_CHAR,
-                       rank,
-                       tag_of_pieces,
-                       communicator,
-                       MPI_STATUS_IGNORE);
-      AssertThrowMPI(error);
+      std::string text;
+      for (const auto &array : arrays)
+        text +=
+          element("Float32", array.name, array.n_components, array.values);
       return text;
-    }
-
-    /** Write the pieces of all ranks; return 0 or an errno. For the first rank.
-     */
-    int
-    collect(const std::string                              &path,
-            const MPI_Comm                                  communicator,
-            const unsigned int                              n_pieces,
-            const std::function<std::string(unsigned int)> &make)
-    {
-      const int     n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-      PiecewiseFile file(path);
-      for (unsigned int i = 0; i < n_pieces; ++i)
-        {
-          file.append(make(i));
-          for (int rank = 1; rank < n_ranks; ++rank)
-            file.append(receive_from(rank, communicator));
-        }
-      return file.finish();
     }
   } // namespace
 
-  void
-  write_vtu_file(const std::string                              &path,
-                 const MPI_Comm                                  communicator,
-                 const unsigned int                              n_pieces,
-                 const std::function<std::string(unsigned int)> &make)
+  unsigned int
+  VtuPiece::add_point(const Point<2> &place)
   {
-    int error = 0;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      error = collect(path, communicator, n_pieces, make);
+    for (unsigned int d = 0; d < 2; ++d)
+      places.push_back(place[d]);
+    places.push_back(0.f);
+    return places.size() / 3 - 1;
+  }
+
+  void
+  VtuPiece::add_cell(const std::vector<unsigned int> &corners)
+  {
+    constexpr unsigned char vertex = 1, quadrilateral = 9; // of VTK
+    if (corners.size() == 1)
+      connectivity.push_back(corners[0]);
     else
-      for (unsigned int i = 0; i < n_pieces; ++i)
-        send_to_first(make(i), communicator);
+      for (const unsigned int corner : {0, 1, 3, 2})
+        connectivity.push_back(corners[corner]);
+    offsets.push_back(connectivity.size());
+    types.push_back(corners.size() == 1 ? vertex : quadrilateral);
+  }
+
+  std::string
+  VtuPiece::text() const
+  {
+    if (n_cells() == 0)
+      return "";
+    std::string data = elements(of_points);
+    if (!ids.empty())
+      data += element("Int64", "id", 1, ids);
+    return "<Piece NumberOfPoints=\"" + to_text(places.size() / 3) +
+           "\" NumberOfCells=\"" + to_text(n_cells()) + "\">\n<Points>\n" +
+           element("Float32", "Points", 3, places) + "</Points>\n<Cells>\n" +
+           element("Int32", "connectivity", 1, connectivity) +
+           element("Int32", "offsets", 1, offsets) +
+           element("UInt8", "types", 1, types) + "</Cells>\n<PointData>\n" +
+           data + "</PointData>\n<CellData>\n" + elements(of_cells) +
+           "</CellData>\n</Piece>\n";
+  }
+
+  void
+  write_vtu_file(const std::string                           &path,
+                 const MPI_Comm                               communicator,
+                 const double                                 time,
+                 const unsigned int                           n_pieces,
+                 const std::function<VtuPiece(unsigned int)> &make)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    std::optional<AtomicFile> file; // of the first rank
+    if (rank == 0)
+      file.emplace(path).append(
+        "<?xml version=\"1.0\"?>\n"
+        R"(<VTKFile type="UnstructuredGrid" version="0.1" )"
+        R"(compressor="vtkZLibDataCompressor" byte_order="LittleEndian">)"
+        "\n<UnstructuredGrid>\n<FieldData>\n"
+        R"(<DataArray type="Float64" Name="TIME" NumberOfTuples="1" )"
+        "format=\"ascii\">" +
+        to_text(time, 17) + "</DataArray>\n</FieldData>\n");
+    for (unsigned int i = 0; i < n_pieces; ++i)
+      {
+        const std::string own = make(i).text();
+        const auto sizes = Utilities::MPI::all_gather(communicator, own.size());
+        for (unsigned int r = 0; r < sizes.size(); ++r)
+          {
+            std::string piece = r == rank ? own : std::string(sizes[r], ' ');
+            Utilities::MPI::broadcast(piece.data(), sizes[r], r, communicator);
+            if (file)
+              file->append(piece);
+          }
+      }
+    int error = 0;
+    if (file)
+      {
+        file->append("</UnstructuredGrid>\n</VTKFile>\n");
+        error = file->finish();
+      }
     error = Utilities::MPI::broadcast(communicator, error);
     if (error != 0)
       report_unwritable(path, error, "the frames so far are kept");

@@ -4,6 +4,7 @@
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
+#include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/restart/point_file.h>
 
@@ -16,6 +17,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -28,10 +30,7 @@ namespace CaissonMPM
 
   namespace
   {
-    const std::string format_name = "caisson_mpm-checkpoint-14";
-
-    // what a rank has in memory at a time besides its own
-    constexpr unsigned long rows_per_piece = 20000;
+    const std::string format_name = "caisson_mpm-checkpoint-15";
 
     std::string
     info_file(const std::string &directory)
@@ -39,29 +38,18 @@ namespace CaissonMPM
       return directory + "/checkpoint.info";
     }
 
-    /** What checkpoint.info says. */
-    struct Info
-    {
-      std::string   file; // checkpoint-a.h5 or checkpoint-b.h5
-      unsigned long n_points = 0;
-      unsigned long n_bytes  = 0; // of the file
-      std::uint64_t checksum = 0; // of the points
-      std::vector<Checkpoint::FieldSum> fields;
-      NamedNumbers                      state;
-      std::vector<std::string>          warnings;
-      std::string                       fingerprint;
-    };
+    using Info = Checkpoint::Info;
 
     /** The text below its first two lines. */
     std::string
     body_of(const Info &info)
     {
       std::ostringstream out;
-      out << "file " << info.file << "\npoints " << info.n_points << "\nbytes "
-          << info.n_bytes << "\nchecksum_of_points " << info.checksum
-          << "\nfields\n";
-      for (const auto &[name, sum] : info.fields)
-        out << name << ' ' << sum << '\n';
+      out << "file " << info.file << "\nchecksum_of_file "
+          << info.checksum_of_file << "\npoints " << info.n_points
+          << "\ncolumns " << info.columns << "\nfields\n";
+      for (const std::string &name : info.fields)
+        out << name << '\n';
       out << "state\n";
       for (const auto &[name, value] : info.state)
         out << name << ' ' << to_text(value, 17) << '\n';
@@ -116,20 +104,15 @@ namespace CaissonMPM
           checksum != "checksum_of_text " + fingerprint_of(body))
         return {};
       std::map<std::string, std::string> entries;
-      Info                               info;
       read_pairs(in, "fields", [&](const auto &name, const auto &value) {
         entries[name] = value;
       });
-      read_pairs(in, "state", [&](const auto &name, const auto &value) {
-        info.fields.emplace_back(name, value);
-      });
-      const auto count = [&](const std::string &name) {
-        return std::strtoul(entries[name].c_str(), nullptr, 10);
-      };
-      info.file     = entries["file"];
-      info.n_points = count("points");
-      info.n_bytes  = count("bytes");
-      info.checksum = count("checksum_of_points");
+      Info info;
+      info.file             = entries["file"];
+      info.checksum_of_file = entries["checksum_of_file"];
+      info.n_points = std::strtoul(entries["points"].c_str(), nullptr, 10);
+      info.columns  = entries["columns"];
+      info.fields   = read_lines(in, "state");
       read_pairs(in, "warnings", [&](const auto &name, const auto &value) {
         info.state.emplace_back(name, std::strtod(value.c_str(), nullptr));
       });
@@ -140,16 +123,21 @@ namespace CaissonMPM
       return info;
     }
 
-
-
     // ---------------------------------------------------------- files
 
-    unsigned long
-    size_of(const fs::path &file)
+    /** The checksum of all its bytes. */
+    std::string
+    checksum_of(const std::string &path)
     {
-      std::error_code error;
-      const auto      size = fs::file_size(file, error);
-      return error ? 0 : size;
+      std::ifstream file(path, std::ios::binary);
+      Fingerprint   result;
+      std::string   piece(1 << 20, ' ');
+      while (file.read(piece.data(), piece.size()), file.gcount() > 0)
+        {
+          piece.resize(file.gcount());
+          result.add(piece);
+        }
+      return result.digits();
     }
 
     /** Bring the file to the disk; 0 or an errno. */
@@ -204,127 +192,7 @@ namespace CaissonMPM
                           "the one before it, if any, is still valid");
     }
 
-
-
-    // ---------------------------------------------------------- points
-
-    /** Close the file. The checksum of all ranks' rows, unless one has failed.
-     * Collective. */
-    std::optional<std::uint64_t>
-    finish(PointFile &file, const MPI_Comm communicator)
-    {
-      const bool succeeded =
-        Utilities::MPI::min(file.close() ? 1 : 0, communicator) == 1;
-      const auto sum = Utilities::MPI::sum(file.checksum(), communicator);
-      return succeeded ? std::make_optional(sum) : std::nullopt;
-    }
-
-    std::string
-    checksum_of(const std::vector<double> &values)
-    {
-      return fingerprint_of(
-        std::string(reinterpret_cast<const char *>(values.data()),
-                    values.size() * sizeof(double)));
-    }
-
-    std::vector<Checkpoint::FieldSum>
-    checksums_of(const NamedFields &fields)
-    {
-      std::vector<Checkpoint::FieldSum> result;
-      for (const auto &[name, values] : fields)
-        result.emplace_back(name, checksum_of(values));
-      return result;
-    }
-
-    /** Write the fields, and the points of all ranks, one rank's after the
-     * other's, each in the order of its cells. Returns as finish(). Collective.
-     */
-    std::optional<std::uint64_t>
-    write_data(const std::string    &path,
-               const BackgroundGrid &grid,
-               const MaterialPoints &points,
-               const NamedFields    &fields)
-    {
-      const MPI_Comm communicator = grid.communicator();
-      const auto     n            = Utilities::MPI::all_gather(
-        communicator, static_cast<unsigned long>(points.n_points()));
-      const auto own =
-        n.begin() + Utilities::MPI::this_mpi_process(communicator);
-      unsigned long               row = std::accumulate(n.begin(), own, 0ul);
-      PointFile                   file(path,
-                     PointFile::Access::create,
-                     std::accumulate(n.begin(), n.end(), 0ul),
-                     communicator,
-                     points.n_user_state());
-      std::vector<TravelingPoint> piece;
-      piece.reserve(std::min(*own, rows_per_piece));
-      const auto write_piece = [&]() {
-        file.write(row, piece);
-        row += piece.size();
-        piece.clear();
-      };
-      points.for_each([&](const MaterialPoint &point, const unsigned int cell) {
-        piece.push_back({grid.global_number(cell), point});
-        if (piece.size() == rows_per_piece)
-          write_piece();
-      });
-      write_piece();
-      for (const auto &[name, values] : fields)
-        file.write_field(name, values);
-      return finish(file, communicator);
-    }
-
-    /** Read the fields of these names; their values mean nothing where this
-     * fails. Collective. */
-    NamedFields
-    read_all_fields(const std::string                       &path,
-                    const unsigned long                      n_points,
-                    const std::vector<Checkpoint::FieldSum> &fields,
-                    const MPI_Comm                           communicator)
-    {
-      NamedFields result;
-      PointFile   file(path, PointFile::Access::read, n_points, communicator);
-      for (const auto &[name, sum] : fields)
-        result.emplace_back(name, file.read_field(name));
-      return result;
-    }
-
-    /**
-     * Read all points and call action(points) for each piece, as often on all
-     * ranks: the pieces of all of them, one rank's after the other's, are the
-     * next rows of the file. Returns as finish(). Collective.
-     */
-    template <typename Action>
-    std::optional<std::uint64_t>
-    read_all_points(const std::string  &path,
-                    const unsigned long n_points,
-                    const MPI_Comm      communicator,
-                    const Action       &action)
-    {
-      PointFile  file(path, PointFile::Access::read, n_points, communicator);
-      const auto n_ranks = Utilities::MPI::n_mpi_processes(communicator),
-                 rank    = Utilities::MPI::this_mpi_process(communicator);
-      for (unsigned long row = 0; row < n_points;
-           row += n_ranks * rows_per_piece)
-        {
-          const unsigned long begin =
-                                std::min(n_points, row + rank * rows_per_piece),
-                              end = std::min(n_points, begin + rows_per_piece);
-          action(file.read(begin, end - begin));
-        }
-      return finish(file, communicator);
-    }
-
-
-
     // ---------------------------------------------------------- reading
-
-    std::string
-    next_line(std::istream &in)
-    {
-      std::string line;
-      return std::getline(in, line) ? line : "(no further entry)";
-    }
 
     [[noreturn]] void
     report_damaged(const std::string &directory)
@@ -346,13 +214,11 @@ namespace CaissonMPM
                        "output directory of the run that was stopped, or run "
                        "without --restart.");
       const auto info = parse_info(text);
-      if (!info || size_of(directory + "/" + info->file) != info->n_bytes)
+      if (!info)
         report_damaged(directory);
       return *info;
     }
   } // namespace
-
-
 
   void
   write_checkpoint(const std::string              &directory,
@@ -372,44 +238,40 @@ namespace CaissonMPM
                   "checkpoint-a.h5";
     info.n_points =
       Utilities::MPI::sum<unsigned long>(points.n_points(), communicator);
-    info.fields            = checksums_of(fields);
-    info.state             = state;
-    info.warnings          = warnings;
-    info.fingerprint       = fingerprint;
+    info.columns          = names_of_columns(points.n_user_state());
+    info.state            = state;
+    info.warnings         = warnings;
+    info.fingerprint      = fingerprint;
+    unsigned long n_bytes = 10000 + info.n_points *
+                                      (1 + n_numbers(points.n_user_state())) *
+                                      sizeof(double);
+    for (const auto &[name, values] : fields)
+      {
+        info.fields.push_back(name);
+        n_bytes += values.size() * sizeof(double);
+      }
+
     const std::string path = directory + "/" + info.file;
-    unsigned long     n_bytes =
-      info.n_points * PointFile::bytes_per_point(points.n_user_state());
-    for (const auto &field : fields)
-      n_bytes += field.second.size() * sizeof(double);
-    const auto on_failure = [&]() {
-      const int error = has_space(directory, n_bytes) ? EIO : ENOSPC;
-      OutputDirectory::remove(path);
+    on_first_rank(communicator, directory, [&]() {
+      return make_room(path, n_bytes);
+    });
+    const bool failed =
+      Utilities::MPI::max(write_point_file(path, grid, points, fields) ? 0 : 1,
+                          communicator) > 0;
+    on_first_rank(communicator, directory, [&]() {
+      int error = failed ? EIO : synchronize(path);
+      if (error == EIO && !has_space(directory, n_bytes))
+        error = ENOSPC;
+      if (error == 0)
+        {
+          info.checksum_of_file = checksum_of(path);
+          error = try_to_write(info_file(directory), text_of(info));
+        }
+      if (error != 0)
+        OutputDirectory::remove(path);
       return error;
-    };
-    on_first_rank(communicator, directory, [&]() {
-      return make_room(path, n_bytes + 10000);
-    });
-
-    const auto written = write_data(path, grid, points, fields);
-    on_first_rank(communicator, directory, [&]() {
-      return written ? synchronize(path) : on_failure();
-    });
-
-    // see that all is there: a full disk is not always reported
-    const auto found =
-      read_all_points(path, info.n_points, communicator, [](const auto &) {});
-    const NamedFields found_fields =
-      read_all_fields(path, info.n_points, info.fields, communicator);
-    on_first_rank(communicator, directory, [&]() {
-      if (found != written || checksums_of(found_fields) != info.fields)
-        return on_failure();
-      info.n_bytes  = size_of(path);
-      info.checksum = *written;
-      return try_to_write(info_file(directory), text_of(info));
     });
   }
-
-
 
   bool
   Checkpoint::is_in(const std::string &directory)
@@ -417,30 +279,22 @@ namespace CaissonMPM
     return !read_text(info_file(directory)).empty();
   }
 
-
-
   Checkpoint::Checkpoint(const std::string &directory)
     : directory(directory)
-  {
-    const Info info = read_info(directory);
-    file            = info.file;
-    n_points        = info.n_points;
-    checksum        = info.checksum;
-    fields          = info.fields;
-    state_          = info.state;
-    warnings_       = info.warnings;
-    fingerprint_    = info.fingerprint;
-  }
-
-
+    , info(read_info(directory))
+  {}
 
   void
   Checkpoint::check_fingerprint(const std::string &fingerprint) const
   {
-    if (fingerprint_ == fingerprint)
+    if (info.fingerprint == fingerprint)
       return;
-    std::istringstream then(fingerprint_), now(fingerprint);
-    std::string        a, b;
+    std::istringstream then(info.fingerprint), now(fingerprint);
+    const auto         next_line = [](std::istream &in) {
+      std::string line;
+      return std::getline(in, line) ? line : "(no further entry)";
+    };
+    std::string a, b;
     while (a == b && (then || now))
       {
         a = next_line(then);
@@ -452,44 +306,55 @@ namespace CaissonMPM
                    "--restart, in another directory.");
   }
 
-
-
   NamedFields
-  Checkpoint::read_fields(const MPI_Comm communicator) const
+  Checkpoint::read_fields() const
   {
-    const NamedFields result =
-      read_all_fields(directory + "/" + file, n_points, fields, communicator);
-    const bool are_whole = checksums_of(result) == fields;
-    if (Utilities::MPI::min(are_whole ? 1 : 0, communicator) == 0)
+    const PointFile file(directory + "/" + info.file);
+    NamedFields     result;
+    for (const std::string &name : info.fields)
+      result.emplace_back(name, file.read_field(name));
+    if (!file.succeeded())
       report_damaged(directory);
     return result;
   }
-
-
 
   void
   Checkpoint::read_points(const BackgroundGrid &grid,
                           MaterialPoints       &points) const
   {
-    const MPI_Comm communicator   = grid.communicator();
-    const auto     for_each_piece = [&](const auto &action) {
-      if (read_all_points(
-            directory + "/" + file, n_points, communicator, action) != checksum)
+    const MPI_Comm    communicator = grid.communicator();
+    const std::string path         = directory + "/" + info.file;
+    const auto        ask_all      = [&](const bool is_fine) {
+      if (Utilities::MPI::min(is_fine ? 1 : 0, communicator) == 0)
         report_damaged(directory);
     };
+    ask_all(!grid.is_first_rank() ||
+            (checksum_of(path) == info.checksum_of_file &&
+             info.columns == names_of_columns(points.n_user_state())));
 
-    // first see that all is there, and how many points go where
+    // all ranks read as often: their pieces are the next rows of the file
+    const PointFile     file(path);
+    const unsigned long n              = info.n_points;
+    const auto          for_each_piece = [&](const auto &action) {
+      const unsigned long rank = Utilities::MPI::this_mpi_process(communicator);
+      for (unsigned long row = 0; row < n;
+           row += grid.n_ranks() * rows_per_piece)
+        {
+          const unsigned long begin = std::min(n, row + rank * rows_per_piece),
+                              end = std::min(n, begin + rows_per_piece);
+          action(file.read(begin, end - begin, points.n_user_state()));
+        }
+    };
+
     std::vector<unsigned int> n_in_cell(grid.n_global_cells(), 0);
     for_each_piece([&](const std::vector<TravelingPoint> &piece) {
       for (const TravelingPoint &p : piece)
-        if (index_of(p.cell) < n_in_cell.size() &&
-            p.point.user_state.size() == points.n_user_state())
+        if (index_of(p.cell) < n_in_cell.size())
           ++n_in_cell[index_of(p.cell)];
     });
     Utilities::MPI::sum(n_in_cell, communicator, n_in_cell);
-    if (std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) != n_points)
-      report_damaged(directory);
-
+    ask_all(file.succeeded() &&
+            std::accumulate(n_in_cell.begin(), n_in_cell.end(), 0ul) == n);
     points.reset(n_in_cell);
     for_each_piece([&](const std::vector<TravelingPoint> &piece) {
       for (const TravelingPoint &p : send_to_owners(grid, piece))

@@ -436,8 +436,8 @@ namespace CaissonMPM
                            const double eta_seconds) const
   {
     RunFacts known = own_facts("running");
-    known.progress = {{"fraction_done", Json::number(fraction_done)},
-                      {"remaining_s", Json::number(eta_seconds)}};
+    known.progress = {{"fraction_done", fraction_done},
+                      {"remaining_s", eta_seconds}};
     write_early_summary(directory + "/run.json", parts, known);
   }
 

@@ -31,9 +31,9 @@ namespace CaissonMPM
     // ---------------------------------------------------------- run.json
 
     void
-    append(Json::Members &members, const Json::Members &more)
+    append(Json &members, const Json::initializer_list_t more)
     {
-      members.insert(members.end(), more.begin(), more.end());
+      members.update(Json::object(more));
     }
 
     /** The time of this moment, as in 2026-11-26T08:44:10+0100. */
@@ -46,117 +46,110 @@ namespace CaissonMPM
       return text.str();
     }
 
-    Json::Members
+    Json
     about_program(const RunFacts &facts)
     {
-      return {{"version", Json::text(program_version())},
-              {"dealii_version", Json::text(DEAL_II_PACKAGE_VERSION)},
-              {"scene_file", Json::text(facts.scene_file)},
-              {"command", Json::text("caisson_mpm " + facts.command)},
-              {"title", Json::text(facts.title)},
-              {"written", Json::text(now())},
-              {"instruction_set", Json::text(facts.kernels)},
-              {"fingerprint", Json::text(facts.fingerprint)},
-              {"status", Json::text(facts.status)}};
+      return {{"version", program_version()},
+              {"dealii_version", DEAL_II_PACKAGE_VERSION},
+              {"scene_file", facts.scene_file},
+              {"command", "caisson_mpm " + facts.command},
+              {"title", facts.title},
+              {"written", now()},
+              {"instruction_set", facts.kernels},
+              {"fingerprint", facts.fingerprint},
+              {"status", facts.status}};
     }
 
     /** The run after which this one goes on, and where it begins. */
-    Json::Members
+    Json
     about_installation(const RecordedParts &parts, const RunFacts &facts)
     {
       if (facts.installation.empty())
-        return {};
-      return {{"installation", Json::text(facts.installation)},
+        return Json::object();
+      return {{"installation", facts.installation},
               {"start_penetration_m",
-               Json::number(parts.body.shape().initial_depth() +
-                            parts.body.motion().beginning().travel)}};
+               parts.body.shape().initial_depth() +
+                 parts.body.motion().beginning().travel}};
     }
 
     /** What the scene sets to another value than the default, what has its
      * default, and what the program warned of. Layers have their numbers in
      * the scene. */
-    Json::Members
+    Json
     about_input(const RunFacts &facts)
     {
       const DeclaredEntries declared(ParameterAcceptor::prm);
-      Json::Members         entries, defaults, units;
+      Json entries = Json::object(), defaults = entries, units = entries,
+           warnings = Json::array();
       for (const DeclaredEntry &entry : declared.all())
         if (entry.value != entry.default_value)
           {
-            entries.emplace_back(entry.path, Json::text(entry.value));
+            entries[entry.path] = entry.value;
             if (!entry.unit.empty())
-              units.emplace_back(entry.path, Json::text(entry.unit));
+              units[entry.path] = entry.unit;
           }
         else if (entry.path.find("Soil/Layer ") != 0)
-          defaults.emplace_back(entry.path, Json::text(entry.value));
-      std::vector<std::string> warnings, assumed;
+          defaults[entry.path] = entry.value;
       for (const Warning &warning : facts.warnings)
-        warnings.push_back(Json::text(warning.text));
-      for (const std::string &entry : facts.assumed)
-        assumed.push_back(Json::text(entry));
-      return {{"entries", Json::object(entries, 2)},
-              {"units", Json::object(units, 2)},
-              {"defaults", Json::object(defaults, 2)},
-              {"assumed", Json::list(assumed)},
-              {"warnings", Json::list(warnings)}};
+        warnings.push_back(warning.text);
+      return {{"entries", entries},
+              {"units", units},
+              {"defaults", defaults},
+              {"assumed", facts.assumed},
+              {"warnings", warnings}};
     }
 
     /** The warnings by their rank, the most important first. */
-    Json::Members
+    Json
     about_results(const RunFacts &facts)
     {
-      std::vector<std::string> ranked;
+      Json ranked = Json::array();
       for (const auto &[rank, name] :
            {std::make_pair(WarningRank::result, "result"),
             std::make_pair(WarningRank::input, "input"),
             std::make_pair(WarningRank::cosmetic, "cosmetic")})
         for (const Warning &warning : facts.warnings)
           if (warning.rank == rank)
-            ranked.push_back(
-              Json::flat_object({{"rank", Json::text(name)},
-                                 {"text", Json::text(warning.text)}}));
-      return {{"results", Json::object({{"warnings", Json::list(ranked)}}, 2)}};
+            ranked.push_back({{"rank", name}, {"text", warning.text}});
+      return {{"results", {{"warnings", ranked}}}};
     }
 
-    Json::Members
+    Json
     about_size(const RecordedParts &parts, const RunFacts &facts)
     {
       const auto sum = [&parts](const unsigned long value) {
-        return Json::integer(
-          Utilities::MPI::sum(value, parts.grid.communicator()));
+        return Utilities::MPI::sum(value, parts.grid.communicator());
       };
-      return {{"ranks", Json::integer(parts.grid.n_ranks())},
-              {"repartitions", Json::integer(facts.n_repartitions)},
+      return {{"ranks", parts.grid.n_ranks()},
+              {"repartitions", facts.n_repartitions},
               {"material_points", sum(parts.points.n_points())},
-              {"cells", Json::integer(parts.grid.n_global_cells())},
+              {"cells", parts.grid.n_global_cells()},
               {"body_points", sum(parts.body_points.size())},
-              {"steps", Json::integer(facts.n_steps)}};
+              {"steps", facts.n_steps}};
     }
 
-    Json::Members
+    Json
     counts(const RecordedParts &parts, const RunFacts &facts)
     {
-      Json::Members members;
+      Json members;
       for (const auto &[name, value] : parts.totals.counts())
-        members.emplace_back(name, Json::integer(value));
-      members.emplace_back("max_points_in_body",
-                           Json::integer(facts.max_in_body));
+        members[name] = static_cast<unsigned long>(value);
+      members["max_points_in_body"] = facts.max_in_body;
       return members;
     }
 
-    Json::Members
+    Json
     about_speed(const RecordedParts &parts, const RunFacts &facts)
     {
-      return {{"point_steps", Json::number(facts.point_steps)},
-              {"wall_time_s", Json::number(facts.wall_time)},
-              {"point_steps_per_second",
-               Json::number(facts.point_steps / facts.wall_time)},
+      return {{"point_steps", facts.point_steps},
+              {"wall_time_s", facts.wall_time},
+              {"point_steps_per_second", facts.point_steps / facts.wall_time},
               {"peak_memory_bytes", // of all ranks together
-               Json::number(Utilities::MPI::sum(peak_memory_bytes(),
-                                                parts.grid.communicator()))}};
+               Utilities::MPI::sum(peak_memory_bytes(),
+                                   parts.grid.communicator())}};
     }
 
-    Json::Members
+    Json
     masses(const RecordedParts &parts)
     {
       double body = 0., soil = 0.;
@@ -166,24 +159,21 @@ namespace CaissonMPM
         soil += parts.grid.circumference() * p.mass;
       });
       const auto sum = [&parts](const double value) {
-        return Json::number(
-          Utilities::MPI::sum(value, parts.grid.communicator()));
+        return Utilities::MPI::sum(value, parts.grid.communicator());
       };
       return {{"body_mass_kg", sum(body)}, {"soil_mass_kg", sum(soil)}};
     }
 
-    Json::Members
+    Json
     about_step(const RecordedParts &parts)
     {
       const double scaling        = parts.soil.mass_scaling();
       const auto [least, largest] = parts.time_step.range_of_inertia();
       return {{"mass_scaling",
-               Json::list({Json::number(scaling * least),
-                           Json::number(scaling * largest)})},
-              {"time_step_s", Json::number(parts.clock.step_size)},
-              {"time_step_limit", Json::text(parts.time_step.reason())},
-              {"time_step_limits_s",
-               Json::object(Json::numbers(parts.time_step.zone_limits()), 2)}};
+               Json::array({scaling * least, scaling * largest})},
+              {"time_step_s", parts.clock.step_size},
+              {"time_step_limit", parts.time_step.reason()},
+              {"time_step_limits_s", object_of(parts.time_step.zone_limits())}};
     }
 
     NamedNumbers
@@ -198,31 +188,28 @@ namespace CaissonMPM
     }
 
     /** All numbers of a law, by their entries. */
-    std::string
+    Json
     entries_of_law(const SoilMaterial &m)
     {
-      std::string items;
+      Json items = Json::array();
       for (const auto &[name, unit] : m.law_entries())
-        items += (items.empty() ? "" : ", ") +
-                 Json::flat_object({{"entry", Json::text(name)},
-                                    {"value", Json::number(*m.law_value(name))},
-                                    {"unit", Json::text(unit)}});
-      return "[" + items + "]";
+        items.push_back(
+          {{"entry", name}, {"value", *m.law_value(name)}, {"unit", unit}});
+      return items;
     }
 
     /** What design methods and readers need of a material. */
-    Json::Members
+    Json
     about_material(const Soil        &soil,
                    const unsigned int i,
                    const bool         uses_permeability)
     {
       const SoilMaterial &m       = soil.material(i);
-      Json::Members       members = {{"layer", to_text(m.layer + 1)},
-                                     {"top_depth_m", Json::number(m.top_depth)},
-                                     {"law", Json::text(m.law_name())},
-                                     {"submerged_unit_weight_N_m3",
-                                      Json::number(soil.unit_weight(m))},
-                                     {"K0", Json::number(m.earth_pressure_at_rest)}};
+      Json                members = {{"layer", m.layer + 1},
+                                     {"top_depth_m", m.top_depth},
+                                     {"law", m.law_name()},
+                                     {"submerged_unit_weight_N_m3", soil.unit_weight(m)},
+                                     {"K0", m.earth_pressure_at_rest}};
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},
         {"cohesion_Pa", m.shear_strength()},
@@ -233,67 +220,62 @@ namespace CaissonMPM
         {"wall_adhesion_Pa", m.wall_adhesion}};
       for (const auto &[name, value] : values)
         if (value)
-          members.emplace_back(name, Json::number(*value));
+          members[name] = *value;
       append(members,
-             {{"solid_density_kg_m3", Json::number(m.solid_density)},
+             {{"solid_density_kg_m3", m.solid_density},
               {"law_entries", entries_of_law(m)}});
       if (m.umat)
         append(members,
-               {{"library_checksum", Json::text(m.umat->checksum())},
-                {"p_wave_modulus_Pa",
-                 Json::number(m.umat_stiffness.p_wave_modulus)},
-                {"poisson_ratio", Json::number(m.umat_stiffness.poisson)}});
+               {{"library_checksum", m.umat->checksum()},
+                {"p_wave_modulus_Pa", m.umat_stiffness.p_wave_modulus},
+                {"poisson_ratio", m.umat_stiffness.poisson}});
       if (uses_permeability)
         append(members,
-               {{"permeability_m_s", Json::number(m.permeability)},
-                {"permeability_ratio", Json::number(m.anisotropy)}});
+               {{"permeability_m_s", m.permeability},
+                {"permeability_ratio", m.anisotropy}});
       return members;
     }
 
     /** The lengths and angles that pictures show. */
-    Json::Members
+    Json
     about_scene(const RecordedParts &parts)
     {
-      Json::Members members = Json::numbers(parts.body.shape().dimensions());
+      Json members = object_of(parts.body.shape().dimensions());
       if (members.empty())
         return members;
       const auto angles = parts.body.surface().friction_angles();
-      append(
-        members,
-        {{"inner_wall_friction_angle_deg", Json::number(angles[inner_wall])},
-         {"outer_wall_friction_angle_deg", Json::number(angles[outer_wall])}});
+      append(members,
+             {{"inner_wall_friction_angle_deg", angles[inner_wall]},
+              {"outer_wall_friction_angle_deg", angles[outer_wall]}});
       const auto &adhesion = parts.body.surface().adhesion;
       append(members,
-             {{"inner_wall_adhesion_Pa", Json::number(adhesion[inner_wall])},
-              {"outer_wall_adhesion_Pa", Json::number(adhesion[outer_wall])}});
-      std::string layers, frames;
+             {{"inner_wall_adhesion_Pa", adhesion[inner_wall]},
+              {"outer_wall_adhesion_Pa", adhesion[outer_wall]}});
+      Json layers = Json::array();
       for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
-        layers += (i > 0 ? ", " : "") +
-                  Json::flat_object(about_material(
-                    parts.soil, i, parts.water->traits().uses_permeability));
-      for (const double depth : parts.schedule.penetrations_of_frames())
-        frames += (frames.empty() ? "" : ", ") + Json::number(depth);
+        layers.push_back(about_material(
+          parts.soil, i, parts.water->traits().uses_permeability));
       append(members,
-             {{"layers", "[" + layers + "]"},
-              {"frame_penetrations_m", "[" + frames + "]"}});
+             {{"layers", layers},
+              {"frame_penetrations_m",
+               parts.schedule.penetrations_of_frames()}});
       const LidCompartment *const lid = parts.water->traits().lid;
       if (parts.water->traits().uses_permeability || lid != nullptr)
         append(members,
-               {{"submerged_weight_N",
-                 Json::number(parts.body.submerged_weight())}});
+               {{"submerged_weight_N", parts.body.submerged_weight()}});
       if (const std::string reason = parts.water->reason_to_end();
           !reason.empty())
-        append(members, {{"end_reason", Json::text(reason)}});
+        append(members, {{"end_reason", reason}});
       if (const auto place = lid != nullptr ? lid->infeasible() : std::nullopt)
         append(members,
                {{"infeasible",
-                 Json::flat_object(
-                   {{"penetration_m", Json::number(place->penetration)},
-                    {"reason", Json::text(place->reason)}})}});
+
+                 {{"penetration_m", place->penetration},
+                  {"reason", place->reason}}}});
       if (const auto travel = parts.body.motion().travel_at_rest())
         append(members,
                {{"rest_penetration_m",
-                 Json::number(parts.body.shape().initial_depth() + *travel)}});
+                 parts.body.shape().initial_depth() + *travel}});
       return members;
     }
 
@@ -365,63 +347,56 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   void
   write_run_summary(const std::string   &path,
                     const RecordedParts &parts,
                     const RunFacts      &facts)
   {
-    Json::Members members = about_program(facts);
-    append(members, about_installation(parts, facts));
-    append(members, about_input(facts));
-    append(members, about_results(facts));
-    append(members, about_size(parts, facts));
-    append(members, counts(parts, facts));
-    append(members, about_speed(parts, facts));
-    append(members, masses(parts));
-    append(members, about_step(parts));
+    Json members = about_program(facts);
+    members.update(about_installation(parts, facts));
+    members.update(about_input(facts));
+    members.update(about_results(facts));
+    members.update(about_size(parts, facts));
+    members.update(counts(parts, facts));
+    members.update(about_speed(parts, facts));
+    members.update(masses(parts));
+    members.update(about_step(parts));
     append(members,
-           {{"energies",
-             Json::object(Json::numbers(energies(parts.energy)), 2)},
-            {"sections", Json::object(Json::numbers(parts.timer.seconds()), 2)},
-            {"scene", Json::object(about_scene(parts), 2)}});
+           {{"energies", object_of(energies(parts.energy))},
+            {"sections", object_of(parts.timer.seconds())},
+            {"scene", about_scene(parts)}});
     if (parts.grid.is_first_rank())
-      write_atomically(path, Json::object(members) + "\n");
+      write_atomically(path, text_of(members));
   }
-
-
 
   int
   write_early_summary(const std::string   &path,
                       const RecordedParts &parts,
                       const RunFacts      &facts)
   {
-    Json::Members members = about_program(facts);
+    Json members = about_program(facts);
     if (!facts.failure.empty())
-      append(members, {{"failure", Json::text(facts.failure)}});
+      append(members, {{"failure", facts.failure}});
     if (!facts.progress.empty())
-      append(members, {{"progress", Json::flat_object(facts.progress)}});
-    append(members, about_installation(parts, facts));
-    append(members, about_input(facts));
-    append(members, about_results(facts));
+      append(members, {{"progress", object_of(facts.progress)}});
+    members.update(about_installation(parts, facts));
+    members.update(about_input(facts));
+    members.update(about_results(facts));
     append(members,
-           {{"ranks", Json::integer(parts.grid.n_ranks())},
-            {"cells", Json::integer(parts.grid.n_global_cells())},
-            {"steps", Json::integer(facts.n_steps)},
-            {"wall_time_s", Json::number(facts.wall_time)}});
-    append(members, about_step(parts));
-    append(members, {{"scene", Json::object(about_scene(parts), 2)}});
+           {{"ranks", parts.grid.n_ranks()},
+            {"cells", parts.grid.n_global_cells()},
+            {"steps", facts.n_steps},
+            {"wall_time_s", facts.wall_time}});
+    members.update(about_step(parts));
+    append(members, {{"scene", about_scene(parts)}});
     // several ranks may fail at once: each writes a file of its own first
     const std::string own =
       path + ".of_rank_" +
       to_text(Utilities::MPI::this_mpi_process(parts.grid.communicator()));
-    if (const int error = try_to_write(own, Json::object(members) + "\n"))
+    if (const int error = try_to_write(own, text_of(members)))
       return error;
     return std::rename(own.c_str(), path.c_str()) == 0 ? 0 : errno;
   }
-
-
 
   void
   print_run_report(Console             &console,
@@ -431,8 +406,6 @@ namespace CaissonMPM
     print_counts(console, parts, facts);
     print_energies(console, parts.energy);
   }
-
-
 
   void
   print_run_times(Console             &console,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/scene_review.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace CaissonMPM
 {

@@ -471,7 +471,7 @@ namespace CaissonMPM
     timer.resume(state);
     recorder.remember(checkpoint.warnings());
     grid.move_to(body.motion().travel());
-    scatter(grid, checkpoint.read_fields(grid.communicator()), water->fields());
+    scatter(grid, checkpoint.read_fields(), water->fields());
     if (grid.n_ranks() > 1)
       repartition(points.cell_costs());
     schedule.resume();
@@ -485,8 +485,7 @@ namespace CaissonMPM
     totals.take_over(checkpoint.state());
     if (grid.n_ranks() > 1)
       repartition(points.cell_costs());
-    water->continue_after(installation.water_level(),
-                          checkpoint.read_fields(grid.communicator()));
+    water->continue_after(installation.water_level(), checkpoint.read_fields());
     energy.start(compute_point_energies(points, materials, grid));
     schedule.start();
   }

@@ -29,10 +29,10 @@ namespace CaissonMPM
            (grid.axisymmetric() ? values.quadrature_point(q)[radial] : 1.);
   }
 
-  PressureSolver::CellMatrix
+  CellMatrix
   CellIntegrals::stiffness(const Conductance &c) const
   {
-    PressureSolver::CellMatrix result = {};
+    CellMatrix result = {};
     for (const unsigned int q : values.quadrature_point_indices())
       for (const unsigned int i : values.dof_indices())
         for (const unsigned int j : values.dof_indices())

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/water/cell_pressure_solver.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -28,26 +25,15 @@ namespace CaissonMPM
   CellPressureSolver::initialize(const BackgroundGrid &grid_of_run)
   {
     grid = &grid_of_run;
-    dofs.reinit(grid->triangulation());
-    dofs.distribute_dofs(fe);
-    const IndexSet own = dofs.locally_owned_dofs(),
-                   all = Compat::locally_relevant_dofs(dofs);
     partitioner =
-      std::make_shared<const Utilities::MPI::Partitioner>(own,
-                                                          all,
-                                                          grid->communicator());
+      grid->triangulation().global_active_cell_index_partitioner().lock();
+    const IndexSet &own = partitioner->locally_owned_range();
+    IndexSet        all = own;
+    all.add_indices(partitioner->ghost_indices());
     places.resize(grid->n_cells());
-    std::vector<types::global_dof_index> of_cell(1);
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
-      {
-        const auto &of_mesh = grid->cell_iterator(cell);
-        DoFHandler<2>::active_cell_iterator(&grid->triangulation(),
-                                            of_mesh->level(),
-                                            of_mesh->index(),
-                                            &dofs)
-          ->get_dof_indices(of_cell);
-        places[cell] = partitioner->global_to_local(of_cell[0]);
-      }
+      places[cell] = partitioner->global_to_local(
+        grid->cell_iterator(cell)->global_active_cell_index());
     for (CellData *v : {&residual_, &correction, &with_ghosts})
       reinit(*v);
 
@@ -122,10 +108,10 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::add_sides(const unsigned int               cell,
-                                const Mudline                   &mudline,
-                                const PressureSolver::OpenSides &open,
-                                const HeldNodes                 &held)
+  CellPressureSolver::add_sides(const unsigned int cell,
+                                const Mudline     &mudline,
+                                const OpenSides   &open,
+                                const HeldNodes   &held)
   {
     const bool in_plug    = mudline.side_of(cell) == Mudline::Side::plug;
     const bool is_open[4] = {false,
@@ -150,9 +136,9 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::find_faces(const Mudline                   &mudline,
-                                 const PressureSolver::OpenSides &open,
-                                 const BoundaryConditions        &conditions)
+  CellPressureSolver::find_faces(const Mudline            &mudline,
+                                 const OpenSides          &open,
+                                 const BoundaryConditions &conditions)
   {
     const HeldNodes held = conditions.held_nodes(grid->n_nodes());
     filled               = mudline.filled().data();
@@ -211,9 +197,9 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::subtract_flow(const CellData &p,
-                                    const Known    &known,
-                                    CellData       &to) const
+  CellPressureSolver::subtract_flow(const CellData       &p,
+                                    const KnownPressures &known,
+                                    CellData             &to) const
   {
     const double *const x = p.begin();
     double *const       y = to.begin();
@@ -229,8 +215,7 @@ namespace CaissonMPM
           }
         else
           y[face.place] -=
-            conductances_[f] *
-            (x[face.place] - known[static_cast<int>(face.beyond)]);
+            conductances_[f] * (x[face.place] - known[face.beyond]);
       }
   }
 
@@ -267,10 +252,10 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::solve(const CellData &source,
-                            const Known    &known,
-                            const double    accuracy,
-                            CellData       &p)
+  CellPressureSolver::solve(const CellData       &source,
+                            const KnownPressures &known,
+                            const double          accuracy,
+                            CellData             &p)
   {
     const auto find_residual = [&]() {
       p.update_ghost_values();

@@ -69,11 +69,11 @@ namespace CaissonMPM
 
   CoupledWater::CoupledWater(const WaterScene &scene)
     : FlowingWater(scene)
+    , extremes(scene)
   {
     traits_.follows_soil = true;
     traits_.least_points = 4;
     projection.register_totals(scene.totals);
-    extremes.register_totals(scene.totals);
     scene.totals.keep("water_unbalanced", unbalanced);
     scene.totals.keep("water_through_surfaces", through_surfaces);
     scene.forces.add(std::make_unique<CoupledPressureForce>(*this));
@@ -91,7 +91,7 @@ namespace CaissonMPM
         "Water/Level is coupled, and the wall has Rigid body/Wall steps or "
         "Rings: coupled water cannot leave the soil beside the gap above them. "
         "Set Level = seepage or undrained, or leave them out.");
-    const PressureSolver::OpenSides &open = scene.settings.sides;
+    const OpenSides &open = scene.settings.sides;
     if (!lid && !open.surface && !open.outer && !open.bottom)
       throw BadInput(
         "the pore water has nowhere to drain to. Set Water/Drained "
@@ -101,11 +101,7 @@ namespace CaissonMPM
   std::vector<const Section *>
   CoupledWater::used_groups() const
   {
-    return {&scene.settings.coupled,
-            &scene.settings.open_sides,
-            &scene.settings.sea,
-            &scene.settings.suction,
-            &scene.settings.feasibility};
+    return {&scene.settings.coupled, &scene.settings.open_sides};
   }
 
   void
@@ -263,8 +259,7 @@ namespace CaissonMPM
   void
   CoupledWater::prepare_columns()
   {
-    const double gamma = scene.soil.unit_weight_of_water();
-    extremes.begin(gamma, scene.settings.sea.cavitation(gamma, 0.));
+    extremes.begin();
     for (const unsigned int cell : projection.solver().cells())
       {
         const double p = projection.pressure_in(cell);
@@ -277,7 +272,7 @@ namespace CaissonMPM
       for (unsigned int node = 0; node < scene.grid.n_owned_nodes(); ++node)
         if (const auto p = projection.known_at(node))
           extremes.include_at(*p, scene.grid.r_of(node), scene.grid.z_of(node));
-    extremes.end(scene.grid.communicator());
+    extremes.end();
   }
 
   NamedNumbers
@@ -306,59 +301,44 @@ namespace CaissonMPM
     return warnings;
   }
 
-  std::vector<CoupledWater::Drainage>
-  CoupledWater::drainage(const std::vector<Kernels::Material> &materials) const
-  {
-    std::vector<Drainage> result;
-    if (!scene.body.shape().exists())
-      return result;
-    const double diameter = 2. * scene.body.shape().right(),
-                 speed    = scene.body.motion().usual_velocity();
-    for (const unsigned int i : scene.soil.uppermost_materials())
-      {
-        const double modulus = materials[i].p_wave_modulus;
-        Drainage     d;
-        d.c_v = scene.settings.coupled.time_compression *
-                scene.soil.material(i).permeability * modulus /
-                scene.soil.unit_weight_of_water();
-        d.group = speed * diameter / d.c_v;
-        d.inertia =
-          d.c_v /
-          (std::sqrt(modulus / scene.soil.inertial_density(i)) * diameter);
-        result.push_back(d);
-      }
-    return result;
-  }
-
   WaterReport
   CoupledWater::report(const std::vector<Kernels::Material> &materials) const
   {
-    WaterReport  result      = FlowingWater::report(materials);
-    const double compression = scene.settings.coupled.time_compression;
-    const auto   group       = [this](const Drainage &layer) {
-      if (!scene.body.motion().needs_response())
-        return to_text(layer.group, 3);
-      return to_text(2. * scene.body.shape().right() / layer.c_v, 3) +
-             " for each m/s of the velocity, which is a result";
-    };
-    const auto of_layers = drainage(materials);
-    for (unsigned int i = 0; i < of_layers.size(); ++i)
+    WaterReport result = FlowingWater::report(materials);
+    if (!scene.body.shape().exists())
+      return result;
+    const double compression = scene.settings.coupled.time_compression,
+                 diameter    = 2. * scene.body.shape().right();
+    unsigned int number      = 0;
+    for (const unsigned int i : scene.soil.uppermost_materials())
       {
-        const Drainage &layer = of_layers[i];
-        result.lines.emplace_back("drainage of layer " + to_text(i + 1),
-                                  "c_v = " + to_text(layer.c_v, 3) +
-                                    " m2/s, v D / c_v = " + group(layer) +
+        const std::string layer   = to_text(++number);
+        const double      modulus = materials[i].p_wave_modulus;
+        // k (lambda + 2 mu) / gamma_w, m2/s, with mass scaling over the speed
+        // of waves and the diameter
+        const double c_v = compression * scene.soil.material(i).permeability *
+                           modulus / scene.soil.unit_weight_of_water();
+        const double inertia =
+          c_v /
+          (std::sqrt(modulus / scene.soil.inertial_density(i)) * diameter);
+        const std::string group =
+          scene.body.motion().needs_response() ?
+            to_text(diameter / c_v, 3) +
+              " for each m/s of the velocity, which is a result" :
+            to_text(scene.body.motion().usual_velocity() * diameter / c_v, 3);
+        result.lines.emplace_back("drainage of layer " + layer,
+                                  "c_v = " + to_text(c_v, 3) +
+                                    " m2/s, v D / c_v = " + group +
                                     (compression != 1. ?
                                        ", permeability times " +
                                          to_text(compression) +
                                          " (Water/Time compression)" :
                                        ""));
-        if (layer.inertia > largest_inertia)
+        if (inertia > largest_inertia)
           result.known_limits.push_back(
-            "inertia delays the drainage of layer " + to_text(i + 1) +
-            ": c_v over wave speed and diameter is " +
-            to_text(layer.inertia, 2) + ", more than " +
-            to_text(largest_inertia) +
+            "inertia delays the drainage of layer " + layer +
+            ": c_v over wave speed and diameter is " + to_text(inertia, 2) +
+            ", more than " + to_text(largest_inertia) +
             ". Reduce Time/Mass scaling if pressures that change fast matter");
       }
     return result;

@@ -31,20 +31,23 @@ namespace CaissonMPM
   }
 
   void
-  Feasibility::update(const State &state)
+  Feasibility::update(const double penetration,
+                      const double extra_heave,
+                      const double suction,
+                      const double gradient,
+                      const double window)
   {
-    if (state.suction <= 0.)
+    if (suction <= 0.)
       at = -1.;
-    else if (piping < 0. && state.gradient >= 1.)
-      piping = state.penetration;
-    if (state.suction <= 0. ||
-        (at >= 0. && state.penetration < at + state.window))
+    else if (piping < 0. && gradient >= 1.)
+      piping = penetration;
+    if (suction <= 0. || (at >= 0. && penetration < at + window))
       return;
-    const double rise = state.extra_heave - heave_there;
-    if (at >= 0. && lift < 0. && rise > lifted * (state.penetration - at))
+    const double rise = extra_heave - heave_there;
+    if (at >= 0. && lift < 0. && rise > lifted * (penetration - at))
       lift = at;
-    at          = state.penetration;
-    heave_there = state.extra_heave;
+    at          = penetration;
+    heave_there = extra_heave;
   }
 
   std::optional<Feasibility::Place>

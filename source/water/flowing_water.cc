@@ -13,7 +13,7 @@ namespace CaissonMPM
   FlowingWater::FlowingWater(const WaterScene &scene)
     : PoreWater(scene)
   {
-    if (is_caisson())
+    if (scene.has_caisson())
       lid = std::make_unique<LidCompartment>(scene);
     traits_.has_excess_pressure = true;
     traits_.uses_permeability   = true;
@@ -44,17 +44,6 @@ namespace CaissonMPM
                      "Suction control = automatic.");
     if (lid)
       lid->check_parameters();
-  }
-
-  void
-  FlowingWater::name_unused_entries(ParameterOrigins &origins) const
-  {
-    PoreWater::name_unused_entries(origins);
-    if (lid)
-      scene.settings.suction.name_unused_entries(origins);
-    else
-      origins.add_unused(scene.settings.suction.entries(),
-                         "there is no caisson");
   }
 
   void
@@ -107,7 +96,7 @@ namespace CaissonMPM
   FlowingWater::finish_flow()
   {
     if (lid)
-      lid->start(mudline);
+      lid->plug().start(mudline);
     has_started = true;
   }
 
@@ -169,7 +158,9 @@ namespace CaissonMPM
   {
     prepare_columns();
     if (is_solved && lid && flow().flows)
-      lid->update_exit_gradient(mudline, soil_in_cells.of_flow(), outflow());
+      lid->plug().find_exit_gradient(mudline,
+                                     soil_in_cells.of_flow(),
+                                     outflow());
     Mudline now = mudline;
     now.find(scene.grid, scene.points);
     if (lid)

@@ -4,7 +4,6 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
-#include <algorithm>
 
 namespace CaissonMPM
 {
@@ -16,38 +15,26 @@ namespace CaissonMPM
     // From this share of the area on, the soil bears on the whole lid.
     constexpr double full_lid = .9;
 
-    // Nearer to the critical gradient than this, no margin is left: the suction
-    // is not known better.
-    constexpr double near_critical = .9;
-
     // Of the radius, over which a rise of the plug is measured.
     constexpr double window_of_lift = .04;
 
-    // A flow that lifts less than this share of the plug is ignored.
-    constexpr double least_lifted_share = .1;
   } // namespace
 
   LidCompartment::LidCompartment(const WaterScene &scene)
     : scene(scene)
-    , suction_(scene.settings.suction, scene.settings.sea)
-    , plug_balance(scene.grid, scene.points, scene.body)
-    , plug_strength(scene.grid, scene.points, scene.soil, scene.body)
+    , suction_(scene.settings.suction, scene.settings.sea, scene.soil)
+    , plug_(scene)
     , feasibility(scene.settings.feasibility)
   {
     RunTotals &totals = scene.totals;
     suction_.register_totals(totals);
     sealed.register_totals(totals);
-    totals.keep("time_of_suction", time_of_suction);
-    recent_heave.register_totals(totals, "recent_heave");
-    plug_balance.register_totals(totals);
     feasibility.register_totals(totals);
+    recent_heave.register_totals(totals, "recent_heave");
+    totals.keep("time_of_suction", time_of_suction);
     totals.keep("seepage_volume", seepage_volume);
     totals.keep("volume_at_start", volume_at_start);
-    totals.carry("plug_height_at_start", plug_height);
-    totals.carry("plug_has_started", has_started);
-    totals.keep("has_warned_of_piping", has_warned_of_piping);
     totals.keep("has_warned_of_cavity", has_warned_of_cavity);
-    totals.keep("has_warned_of_lift", has_warned_of_lift);
   }
 
   void
@@ -83,22 +70,11 @@ namespace CaissonMPM
   void
   LidCompartment::initialize()
   {
-    const double unit_weight = scene.soil.unit_weight_of_water();
-    suction_.initialize(unit_weight);
-    sealed.set_properties({settings().leak,
-                           settings().bulk_modulus,
-                           settings().gas,
-                           scene.settings.sea.ambient_pressure(unit_weight)});
-  }
-
-  void
-  LidCompartment::start(const Mudline &mudline)
-  {
-    if (has_started)
-      return;
-    plug_height = mudline.mean_height(Mudline::Side::plug);
-    plug_balance.start();
-    has_started = true;
+    sealed.set_properties(
+      {settings().leak,
+       settings().bulk_modulus,
+       settings().gas,
+       scene.settings.sea.ambient_pressure(scene.soil.unit_weight_of_water())});
   }
 
   void
@@ -108,8 +84,8 @@ namespace CaissonMPM
       sealed = SealedLid(); // an open lid keeps no cavity
     const double travel = scene.body.motion().travel();
     volume_at_start =
-      area() * (travel + heave(mudline)) + suction_.gas_expansion();
-    suction_.continue_at(area() * (travel + recent_heave.value()));
+      plug_.area() * (travel + plug_.heave(mudline)) + suction_.gas_expansion();
+    suction_.continue_at(plug_.area() * (travel + recent_heave.value()));
   }
 
   void
@@ -142,16 +118,16 @@ namespace CaissonMPM
       time_of_suction += motion.travel_at_rest() ? dt : 0.;
     else
       time_of_suction = time;
-    recent_heave.add(dt, time_of_heave, heave(mudline));
+    recent_heave.add(dt, time_of_heave, plug_.heave(mudline));
     if (is_sealed())
       advance_sealed(dt, mudline, flow);
     suction_.advance(time_of_suction,
                      dt,
                      {-force_on_body + flow.tip_resistance,
                       scene.body.submerged_weight(),
-                      area() + flow.tip_area,
-                      seepage_volume +
-                        area() * (motion.travel() + recent_heave.value())});
+                      plug_.area() + flow.tip_area,
+                      seepage_volume + plug_.area() * (motion.travel() +
+                                                       recent_heave.value())});
   }
 
   void
@@ -159,11 +135,11 @@ namespace CaissonMPM
                                  const Mudline   &mudline,
                                  const WaterFlow &flow)
   {
-    const double displaced = area() * scene.body.motion().travel();
+    const double displaced = plug_.area() * scene.body.motion().travel();
     if (!sealed.has_started())
       sealed.start(suction(),
-                   area() * (height_of_lid() -
-                             mudline.mean_height(Mudline::Side::plug)) -
+                   plug_.area() * (height_of_lid() -
+                                   mudline.mean_height(Mudline::Side::plug)) -
                      sealed.cavity(),
                    displaced);
     sealed.advance(dt,
@@ -173,41 +149,22 @@ namespace CaissonMPM
     suction_.set(sealed.suction());
   }
 
-  double
-  LidCompartment::area() const
-  {
-    const double inner = scene.body.shape().left();
-    return pi * inner * inner;
-  }
-
-  void
-  LidCompartment::update_exit_gradient(
-    const Mudline                  &mudline,
-    const std::vector<Conductance> &permeability,
-    const NodalData                &outflow)
-  {
-    const double wall  = scene.body.shape().left(),
-                 width = scene.body.penetration();
-    exit =
-      exit_gradient(scene.grid, mudline, permeability, outflow, wall, width);
-  }
-
   void
   LidCompartment::update_limits(const Mudline &now, const WaterFlow &flow)
   {
     if (flow.flows)
-      withstood = plug_strength.find(now);
+      plug_.find_withstood(now);
     if (is_sealed())
       return;
-    const double gradient = suction() > least_lifting_suction() ?
-                              flow.scale * std::max(exit.wall, exit.axis) :
-                              0.;
-    feasibility.update(
-      {scene.body.penetration(),
-       heave(now) - heave_by_wall(),
-       suction(),
-       withstood.surface > 0. ? gradient / withstood.surface : 0.,
-       window_of_lift * scene.body.shape().right()});
+    const double critical = plug_.withstood().surface;
+    feasibility.update(scene.body.penetration(),
+                       plug_.extra_heave(now),
+                       suction(),
+                       critical > 0. ?
+                         plug_.lifting_gradient(flow.scale, suction()) /
+                           critical :
+                         0.,
+                       window_of_lift * scene.body.shape().right());
   }
 
   std::optional<Feasibility::Place>
@@ -229,7 +186,7 @@ namespace CaissonMPM
     const auto at_wall = [&](const Mudline::Side side) {
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
-    const double rise   = heave(mudline);
+    const double rise   = plug_.heave(mudline);
     NamedNumbers result = {{"suction_Pa", suction()},
                            {"cavitation_suction_Pa",
                             suction_.cavitation(height_of_lid())},
@@ -240,9 +197,9 @@ namespace CaissonMPM
       result.insert(result.end(), more.begin(), more.end());
     };
     if (flow.flows)
-      add({{"exit_gradient_wall", flow.scale * exit.wall},
-           {"exit_gradient_axis", flow.scale * exit.axis},
-           {"critical_gradient", withstood.surface},
+      add({{"exit_gradient_wall", flow.scale * plug_.exit().wall},
+           {"exit_gradient_axis", flow.scale * plug_.exit().axis},
+           {"critical_gradient", plug_.withstood().surface},
            {"seepage_flow_m3_s", flow.scale * flow.out},
            {"seepage_inflow_m3_s", flow.scale * flow.in},
            {"seepage_volume_m3", seepage_volume}});
@@ -250,35 +207,20 @@ namespace CaissonMPM
          {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
          {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
          {"flow_iterations", 1. * flow.n_iterations}});
-    add(plug_balance.columns(area() * rise));
-    add(is_sealed() ? sealed.columns() : of_pump(rise));
+    add(plug_.balance(mudline));
+    if (is_sealed())
+      add(sealed.columns());
+    else
+      {
+        const double gas = suction_.gas_expansion();
+        add({{"required_suction_Pa", suction_.required()},
+             {"pumped_volume_m3",
+              seepage_volume +
+                plug_.area() * (scene.body.motion().travel() + rise) + gas -
+                volume_at_start},
+             {"gas_expansion_m3", gas}});
+      }
     return result;
-  }
-
-  NamedNumbers
-  LidCompartment::of_pump(const double rise) const
-  {
-    const double travel = scene.body.motion().travel(),
-                 gas    = suction_.gas_expansion();
-    return {{"required_suction_Pa", suction_.required()},
-            {"pumped_volume_m3",
-             seepage_volume + area() * (travel + rise) + gas - volume_at_start},
-            {"gas_expansion_m3", gas}};
-  }
-
-  double
-  LidCompartment::least_lifting_suction() const
-  {
-    return least_lifted_share * scene.body.penetration() *
-           withstood.of_block() * scene.soil.unit_weight_of_water();
-  }
-
-  bool
-  LidCompartment::carries_soil(const WaterFlow &flow) const
-  {
-    return suction() > least_lifting_suction() &&
-           flow.scale * std::max(exit.wall, exit.axis) >
-             near_critical * withstood.of_block();
   }
 
   void
@@ -287,34 +229,13 @@ namespace CaissonMPM
                        const WaterFlow          &flow,
                        std::vector<std::string> &warnings)
   {
-    const std::string bound =
-      withstood.strength == 0. ?
-        "the critical one" :
-        "what weight and cohesion of the plug withstand, gradients of " +
-          to_text(withstood.weight, 3) + " and " +
-          to_text(withstood.strength, 3) + ",";
-    if (holds_first(has_warned_of_piping, carries_soil(flow)))
-      warnings.push_back(
-        "the exit gradient exceeds " + percent(near_critical, 2) + " of " +
-        bound + where +
-        ": the flow carries nearly all of the soil. Piping may begin, which "
-        "the program does not follow");
+    plug_.warn(where, mudline, flow.scale, suction(), warnings);
     if (holds_first(has_warned_of_cavity, sealed.cavity() > 0.))
       warnings.push_back(
         "water boils beneath the sealed lid" + where + ", at a suction of " +
         to_text(1e-3 * suction(), 4) +
         " kPa: the suction grows no more, and a cavity takes the place of the "
         "water");
-    if (holds_first(has_warned_of_lift,
-                    heave(mudline) >
-                      heave_by_wall() + .02 * scene.body.shape().right()))
-      warnings.push_back(
-        suction() > 0. ?
-          "the suction lifts the plug" + where +
-            ": it rises by more than the wall displaces" :
-          "the plug rises by more than the wall displaces" + where +
-            ", before there is suction: see plug_inflow_m3 and "
-            "plug_dilation_m3");
   }
 
   std::string
@@ -344,10 +265,10 @@ namespace CaissonMPM
   LidCompartment::description() const
   {
     const double weight   = scene.body.submerged_weight(),
-                 stress   = weight / area();
+                 stress   = weight / plug_.area();
     const ShownUnit force = unit_of_forces(weight),
                     unit  = unit_of_stresses(stress);
-    return "on a lid of " + to_text(area(), 4) + " m2; the weight is " +
+    return "on a lid of " + to_text(plug_.area(), 4) + " m2; the weight is " +
            to_text(force.factor * weight, 4) + " " + force.name +
            ", equal to " + to_text(unit.factor * stress, 3) + " " + unit.name +
            " on it; water cavitates there at a suction of " +
@@ -359,20 +280,5 @@ namespace CaissonMPM
   {
     return scene.body.shape().lower_face_of_lid() -
            scene.body.motion().travel();
-  }
-
-  double
-  LidCompartment::heave(const Mudline &mudline) const
-  {
-    return has_started && mudline.is_found() ?
-             mudline.mean_height(Mudline::Side::plug) - plug_height :
-             0.;
-  }
-
-  double
-  LidCompartment::heave_by_wall() const
-  {
-    const double outer = scene.body.shape().right(), area = pi * outer * outer;
-    return scene.body.motion().travel() * (area - this->area()) / this->area();
   }
 } // namespace CaissonMPM

@@ -240,6 +240,32 @@ namespace CaissonMPM
       }
   }
 
+  std::vector<Beyond>
+  Mudline::find_beyond(const BackgroundGrid &grid, const OpenSides &open) const
+  {
+    std::vector<Beyond> result(grid.n_nodes(), Beyond::cell);
+    const auto know = [&](const unsigned int node, const Beyond beyond) {
+      if (result[node] == Beyond::cell || beyond == Beyond::plug)
+        result[node] = beyond;
+    };
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        if (filled_[cell] == 0.)
+          continue;
+        const auto &node    = grid.cell_nodes(cell).node;
+        const bool  in_plug = side_of(cell) == Side::plug;
+        if (is_top(cell) && (in_plug || open.surface))
+          for (unsigned int k = 2; k < 4; ++k)
+            know(node[k], in_plug ? Beyond::plug : Beyond::outside);
+        for (const unsigned int n : node)
+          if (open.outer && grid.is_at(n, GridLines::Side::outer))
+            know(n, Beyond::outside);
+          else if (open.bottom && grid.is_at(n, GridLines::Side::bottom))
+            know(n, Beyond::bottom);
+      }
+    return result;
+  }
+
   double
   Mudline::touched_share_of_lid(const BackgroundGrid &grid) const
   {

@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/pore_water.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace CaissonMPM
@@ -15,8 +16,29 @@ namespace CaissonMPM
   void
   PoreWater::name_unused_entries(ParameterOrigins &origins) const
   {
-    const std::string why = "Water/Level is " + scene.settings.level_name();
-    scene.settings.name_unused_groups(origins, used_groups(), why);
+    const WaterSettings &settings = scene.settings;
+    const std::string    why      = "Water/Level is " + settings.level_name();
+    auto                 used     = used_groups();
+    if (traits_.has_excess_pressure)
+      used.push_back(&settings.sea);
+    const std::vector<const Section *> groups = {&settings.undrained,
+                                                 &settings.seepage,
+                                                 &settings.coupled,
+                                                 &settings.open_sides,
+                                                 &settings.sea},
+                                       of_lid = {&settings.suction,
+                                                 &settings.feasibility,
+                                                 &settings.design};
+    for (const Section *const group : groups)
+      if (std::find(used.begin(), used.end(), group) == used.end())
+        origins.add_unused(group->entries(), why);
+    if (traits_.lid == nullptr)
+      for (const Section *const group : of_lid)
+        origins.add_unused(group->entries(),
+                           traits_.uses_permeability ? "there is no caisson" :
+                                                       why);
+    else
+      settings.suction.name_unused_entries(origins);
     if (traits_.uses_permeability)
       return;
     scene.soil.name_unused_permeability(origins, why);
@@ -24,38 +46,6 @@ namespace CaissonMPM
       origins.add_unused({"Rigid body/Submerged weight"},
                          why + ", and Rigid body/Motion is " +
                            scene.body.motion().name());
-  }
-
-  void
-  PoreWater::begin_step(const double              dt,
-                        const BoundaryConditions &conditions,
-                        Contact                  &contact)
-  {
-    (void)dt;
-    (void)conditions;
-    (void)contact;
-  }
-
-  const double *
-  PoreWater::volume_rates(const Kernels::NodalVector             *velocity,
-                          const std::vector<Kernels::CornerView> &corners)
-  {
-    (void)velocity;
-    (void)corners;
-    return nullptr;
-  }
-
-  double
-  PoreWater::end_step(const double time,
-                      const double dt,
-                      const double force_on_body,
-                      const double travel)
-  {
-    (void)time;
-    (void)dt;
-    (void)force_on_body;
-    (void)travel;
-    return 0.;
   }
 
   std::vector<std::string>
@@ -67,27 +57,13 @@ namespace CaissonMPM
     return names;
   }
 
-  WaterReport
-  PoreWater::report(const std::vector<Kernels::Material> &materials) const
-  {
-    (void)materials;
-    return {};
-  }
-
-  void
-  PoreWater::continue_after(const std::string &level, const NamedFields &fields)
-  {
-    (void)level;
-    (void)fields;
-  }
-
   void
   PoreWater::warn_of_open_lid(const double              suction,
                               const std::string        &advice,
                               std::vector<std::string> &warnings)
   {
-    const BodyMotion &motion  = scene.body.motion();
-    const bool        is_open = is_caisson() && !motion.follows_loads() &&
+    const BodyMotion &motion = scene.body.motion();
+    const bool is_open       = scene.has_caisson() && !motion.follows_loads() &&
                          motion.mean_velocity() < 0. && suction == 0.;
     if (holds_first(has_warned_of_open_lid, is_open))
       warnings.push_back(

@@ -2,23 +2,10 @@
 #include <caisson_mpm/water/coupled_water.h>
 #include <caisson_mpm/water/pore_water_factory.h>
 #include <caisson_mpm/water/steady_seepage.h>
-#include <caisson_mpm/water/undrained_suction.h>
 #include <caisson_mpm/water/undrained_water.h>
 
 namespace CaissonMPM
 {
-  namespace
-  {
-    /** Water that moves freely: its excess pressure is zero. */
-    class DrainedWater : public PoreWater
-    {
-    public:
-      explicit DrainedWater(const WaterScene &scene)
-        : PoreWater(scene)
-      {}
-    };
-  } // namespace
-
   std::unique_ptr<PoreWater>
   make_pore_water(const WaterScene &scene)
   {
@@ -31,10 +18,10 @@ namespace CaissonMPM
         case WaterLevel::coupled:
           return std::make_unique<CoupledWater>(scene);
         case WaterLevel::drained:
-          if (UndrainedSuction::is_wanted(scene))
-            return std::make_unique<UndrainedSuction>(scene);
+          if (scene.asks_for_suction())
+            return std::make_unique<SteadySeepage>(scene);
           break;
       }
-    return std::make_unique<DrainedWater>(scene);
+    return std::make_unique<PoreWater>(scene);
   }
 } // namespace CaissonMPM

@@ -12,11 +12,17 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  void
-  PressureExtremes::begin(const double unit_weight, const double at_rest)
+  PressureExtremes::PressureExtremes(const WaterScene &scene)
+    : scene(scene)
   {
-    this->unit_weight = unit_weight;
-    this->at_rest     = at_rest;
+    scene.totals.keep("has_warned_of_cavitation", has_warned);
+  }
+
+  void
+  PressureExtremes::begin()
+  {
+    unit_weight = scene.soil.unit_weight_of_water();
+    at_rest     = scene.settings.sea.cavitation(unit_weight, 0.);
     smallest = largest = 0.;
     lowest             = {{at_rest, 0., 0.}};
   }
@@ -45,10 +51,11 @@ namespace CaissonMPM
   }
 
   void
-  PressureExtremes::end(const MPI_Comm communicator)
+  PressureExtremes::end()
   {
-    smallest = Utilities::MPI::min(smallest, communicator);
-    largest  = Utilities::MPI::max(largest, communicator);
+    const MPI_Comm communicator = scene.grid.communicator();
+    smallest                    = Utilities::MPI::min(smallest, communicator);
+    largest                     = Utilities::MPI::max(largest, communicator);
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, lowest))
       lowest = std::min(lowest, of_rank);
   }

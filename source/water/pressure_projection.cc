@@ -92,42 +92,8 @@ namespace CaissonMPM
   PressureProjection::register_totals(RunTotals &totals)
   {
     totals.keep("water_step", step);
-    totals.carry("water_known_in_plug", known_[static_cast<int>(Beyond::plug)]);
-    totals.carry("water_known_at_bottom",
-                 known_[static_cast<int>(Beyond::bottom)]);
-  }
-
-  void
-  PressureProjection::begin_with(const KnownPressures &known)
-  {
-    known_[static_cast<int>(Beyond::plug)]   = known.plug;
-    known_[static_cast<int>(Beyond::bottom)] = known.bottom;
-  }
-
-  void
-  PressureProjection::find_known_nodes(const PressureSolver::OpenSides &open)
-  {
-    at_nodes.beyond.assign(grid->n_nodes(), Beyond::cell);
-    const auto know = [this](const unsigned int node, const Beyond beyond) {
-      Beyond &other = at_nodes.beyond[node];
-      if (other == Beyond::cell || beyond == Beyond::plug)
-        other = beyond;
-    };
-    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
-      {
-        if (mudline->filled()[cell] == 0.)
-          continue;
-        const auto &node    = grid->cell_nodes(cell).node;
-        const bool  in_plug = mudline->side_of(cell) == Mudline::Side::plug;
-        if (mudline->is_top(cell) && (in_plug || open.surface))
-          for (unsigned int k = 2; k < 4; ++k)
-            know(node[k], in_plug ? Beyond::plug : Beyond::outside);
-        for (const unsigned int n : node)
-          if (open.outer && grid->is_at(n, GridLines::Side::outer))
-            know(n, Beyond::outside);
-          else if (open.bottom && grid->is_at(n, GridLines::Side::bottom))
-            know(n, Beyond::bottom);
-      }
+    totals.carry("water_known_in_plug", known_.plug);
+    totals.carry("water_known_at_bottom", known_.bottom);
   }
 
   void
@@ -185,16 +151,16 @@ namespace CaissonMPM
   PressureProjection::set_up(const BackgroundGrid               &grid,
                              const Mudline                      &mudline_now,
                              const std::vector<WaterProperties> &properties,
-                             const PressureSolver::OpenSides    &sides,
+                             const OpenSides                    &sides,
                              const BoundaryConditions           &conditions,
                              const double                        dt)
   {
     // In a step that is shorter than the last one, the pressure need not do at
     // once what a whole step would do.
-    long_step = std::max(dt, step);
-    step      = dt;
-    mudline   = &mudline_now;
-    find_known_nodes(sides);
+    long_step       = std::max(dt, step);
+    step            = dt;
+    mudline         = &mudline_now;
+    at_nodes.beyond = mudline->find_beyond(grid, sides);
     solver_.find_faces(*mudline, sides, conditions);
     CellIntegrals integrals(grid);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
@@ -223,9 +189,7 @@ namespace CaissonMPM
   double
   PressureProjection::pressure_above(const unsigned int cell) const
   {
-    return mudline->side_of(cell) == Mudline::Side::plug ?
-             known_[static_cast<int>(Beyond::plug)] :
-             known_[static_cast<int>(Beyond::outside)];
+    return mudline->side_of(cell) == Mudline::Side::plug ? known_.plug : 0.;
   }
 
   void
@@ -266,7 +230,7 @@ namespace CaissonMPM
     raise_inertia(mass);
     // 1. div v* of the predicted velocity, which contains the old pressure p'.
     find_volume_rates(velocity, corners);
-    const CellPressureSolver::Known before = known_;
+    const KnownPressures before = known_;
     begin_with(known);
 
     // 2. Solve sum_f (F_f + dt I_f) (p_c - p_f) = right side.
@@ -288,7 +252,7 @@ namespace CaissonMPM
   }
 
   void
-  PressureProjection::compute_source(const CellPressureSolver::Known &before)
+  PressureProjection::compute_source(const KnownPressures &before)
   {
     // dt sum_f I_f (p'_c - p'_f): v* has had the force of p' already
     source = 0.;
@@ -299,7 +263,7 @@ namespace CaissonMPM
         const auto  &face  = faces[f];
         const double other = face.beyond == Beyond::cell ?
                                pressure_.local_element(face.other_place) :
-                               before[static_cast<int>(face.beyond)];
+                               before[face.beyond];
         const double drive = long_step * inertia[f] *
                              (pressure_.local_element(face.place) - other);
         source.local_element(face.place) += drive;
@@ -386,7 +350,7 @@ namespace CaissonMPM
   PressureProjection::outflow_through(const std::size_t side) const
   {
     const auto  &face  = solver_.faces()[side];
-    const double known = known_[static_cast<int>(face.beyond)];
+    const double known = known_[face.beyond];
     if (faces_below[side][0] < 0)
       return seepage[side] * (pressure_.local_element(face.place) - known);
     // what comes through all faces below the cell leaves through the one above
@@ -442,7 +406,7 @@ namespace CaissonMPM
     const Beyond beyond = at_nodes.beyond[node];
     if (beyond == Beyond::cell)
       return std::nullopt;
-    return known_[static_cast<int>(beyond)];
+    return known_[beyond];
   }
 
   const NodalData &

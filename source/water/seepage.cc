@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/water/seepage.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparsity_tools.h>
+
 #include <algorithm>
-#include <vector>
 
 namespace CaissonMPM
 {
@@ -16,161 +22,205 @@ namespace CaissonMPM
   }
 
   void
-  Seepage::initialize(const BackgroundGrid &grid)
+  Seepage::initialize(const BackgroundGrid &grid_of_run)
   {
-    solver_.initialize(grid);
-    for (NodalData *v : {&phi, &no_source, &residual_})
-      grid.reinit(*v, 1);
+    grid             = &grid_of_run;
+    const auto &dofs = grid->dof_handler();
+    hanging          = Compat::empty_constraints(dofs);
+    DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    const auto             known = Compat::locally_relevant_dofs(dofs);
+    const auto            &own   = dofs.locally_owned_dofs();
+    DynamicSparsityPattern pattern(known);
+    DoFTools::make_sparsity_pattern(dofs,
+                                    pattern,
+                                    hanging,
+                                    true,
+                                    Utilities::MPI::this_mpi_process(
+                                      grid->communicator()));
+    SparsityTools::distribute_sparsity_pattern(pattern,
+                                               own,
+                                               grid->communicator(),
+                                               known);
+    multigrid.initialize(own, pattern, grid->communicator(), .1);
+    for (NodalData *v :
+         {&states, &phi, &residual_, &right_side, &correction, &with_ghosts})
+      grid->reinit(*v, 1);
   }
 
   void
-  Seepage::solve(const BackgroundGrid            &grid,
-                 const Mudline                   &mudline,
-                 const std::vector<Conductance>  &permeability,
-                 const PressureSolver::OpenSides &sides)
+  Seepage::find_states(const Mudline &mudline, const OpenSides &sides)
   {
-    solver_.find_states(grid, mudline, sides);
-    const double  scale = largest_conductance(grid, permeability);
-    CellIntegrals integrals(grid);
-    for (std::size_t i = 0; i < solver_.cells().size(); ++i)
+    const auto beyond = mudline.find_beyond(*grid, sides);
+    states.zero_out_ghost_values();
+    for (unsigned int node = 0; node < grid->n_nodes(); ++node)
+      states.local_element(node) = no_water;
+    cells.clear();
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       {
-        const unsigned int cell = solver_.cells()[i];
-        const Conductance  k =
-          of_lower_part(permeability[cell], mudline.filled()[cell]);
-        integrals.reinit(cell);
-        solver_.matrices()[i] =
-          integrals.stiffness({k.horizontal / scale, k.vertical / scale});
+        if (mudline.filled()[cell] == 0.)
+          continue;
+        if (grid->is_owned(cell))
+          cells.push_back(cell);
+        for (const unsigned int node : grid->cell_nodes(cell).node)
+          states.local_element(node) = beyond[node] == Beyond::cell ? unknown :
+                                       beyond[node] == Beyond::plug ? plug :
+                                                                      open;
       }
-    phi.zero_out_ghost_values();
-    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      if (solver_.state(node) == PressureSolver::plug)
-        phi.local_element(node) = 1.;
-      else if (solver_.state(node) == PressureSolver::open)
-        phi.local_element(node) = 0.;
-    solver_.solve(no_source, tolerance, phi);
-    solver_.apply(phi, residual_);
-    residual_ *= scale;
+    // a rank knows all cells around the nodes that it owns, and only there
+    states.update_ghost_values();
   }
 
-  Conductance
-  of_lower_part(const Conductance &c, const double filled)
+  void
+  Seepage::assemble()
   {
-    return {c.horizontal * filled, c.vertical / filled};
+    const auto dof_of = [this](const unsigned int node) {
+      return phi.get_partitioner()->local_to_global(node);
+    };
+    auto constraints = Compat::empty_constraints(grid->dof_handler());
+    constraints.merge(hanging);
+    for (unsigned int node = 0; node < grid->n_nodes(); ++node)
+      if (state(node) != unknown && !constraints.is_constrained(dof_of(node)))
+        constraints.add_line(dof_of(node));
+    constraints.close();
+
+    auto &matrix = multigrid.matrix();
+    matrix       = 0.;
+    std::vector<types::global_dof_index> dofs(4);
+    FullMatrix<double>                   of_cell(4, 4);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        of_cell.fill(matrices[i].data());
+        for (unsigned int k = 0; k < 4; ++k)
+          dofs[k] = dof_of(grid->cell_nodes(cells[i]).node[k]);
+        constraints.distribute_local_to_global(of_cell, dofs, matrix);
+      }
+    matrix.compress(VectorOperation::add);
+    // rows that no cell has met
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      if (state(node) == no_water)
+        matrix.set(dof_of(node), dof_of(node), 1.);
+    matrix.compress(VectorOperation::insert);
+  }
+
+  void
+  Seepage::apply(const NodalData &from, NodalData &to) const
+  {
+    to = 0.;
+    to.zero_out_ghost_values();
+    const double *const x = from.begin();
+    double *const       y = to.begin();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        const double *const       k        = matrices[i].data();
+        const unsigned int *const node     = grid->cell_nodes(cells[i]).node;
+        const double              value[4] = {x[node[0]],
+                                              x[node[1]],
+                                              x[node[2]],
+                                              x[node[3]]};
+        for (unsigned int j = 0; j < 4; ++j)
+          y[node[j]] += k[4 * j] * value[0] + k[4 * j + 1] * value[1] +
+                        k[4 * j + 2] * value[2] + k[4 * j + 3] * value[3];
+      }
+    grid->hanging_nodes().distribute(to, 1);
+    to.compress(VectorOperation::add);
+  }
+
+  template <typename Action>
+  void
+  Seepage::for_each_given(const Action &action) const
+  {
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      if (state(node) != unknown)
+        action(node);
+    for (const auto &hanging_node : grid->hanging_nodes().list())
+      if (hanging_node.node < grid->n_owned_nodes())
+        action(hanging_node.node);
+  }
+
+  void
+  Seepage::vmult(NodalData &to, const NodalData &from) const
+  {
+    with_ghosts.zero_out_ghost_values();
+    with_ghosts.copy_locally_owned_data_from(from);
+    for_each_given([this](const unsigned int node) {
+      with_ghosts.local_element(node) = 0.;
+    });
+    with_ghosts.update_ghost_values();
+    grid->hanging_nodes().interpolate(with_ghosts, 1);
+    apply(with_ghosts, to);
+    for_each_given([&](const unsigned int node) {
+      to.local_element(node) = from.local_element(node);
+    });
   }
 
   double
-  largest_conductance(const BackgroundGrid           &grid,
-                      const std::vector<Conductance> &conductance)
+  Seepage::find_right_side(NodalData &p)
   {
-    double largest = 0.;
-    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-      if (grid.is_owned(cell))
-        largest = std::max(
-          {largest, conductance[cell].horizontal, conductance[cell].vertical});
-    return Utilities::MPI::max(largest, grid.communicator());
+    p.update_ghost_values();
+    grid->hanging_nodes().interpolate(p, 1);
+    apply(p, right_side);
+    right_side *= -1.;
+    for_each_given(
+      [this](const unsigned int node) { right_side.local_element(node) = 0.; });
+    return right_side.l2_norm();
   }
 
-  namespace
+  void
+  Seepage::solve(const Mudline                  &mudline,
+                 const std::vector<Conductance> &permeability,
+                 const OpenSides                &sides)
   {
-    /** Return the permeability times the area of the mudline of the plug that
-     * belongs to each node. [n_nodes], m3/s per radian */
-    NodalData
-    conductivity_of_plug(const BackgroundGrid           &grid,
-                         const Mudline                  &mudline,
-                         const std::vector<Conductance> &permeability)
-    {
-      NodalData conductivity;
-      grid.reinit(conductivity, 1);
-      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-        {
-          if (!grid.is_owned(cell) || !mudline.is_top(cell) ||
-              mudline.side_of(cell) != Mudline::Side::plug)
-            continue;
-          const auto &node = grid.cell_nodes(cell).node;
-          const auto  area =
-            areas_of_side(grid.geometry(cell), grid.axisymmetric());
-          for (unsigned int i = 0; i < 2; ++i)
-            conductivity.local_element(node[2 + i]) +=
-              permeability[cell].vertical * area[i];
-        }
-      conductivity.compress(VectorOperation::add);
-      return conductivity;
-    }
-
-    /** A part of the mudline of the plug; extensive values per radian. */
-    struct Outlet
-    {
-      double r            = 0.; // m
-      double flow         = 0.; // out of the soil, m2/s or that over a pressure
-      double conductivity = 0.; // permeability times area, m3/s
-
-      bool
-      operator<(const Outlet &other) const
+    // 1. the matrices of the cells, with entries of order one
+    find_states(mudline, sides);
+    double scale = 0.;
+    for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
+      if (grid->is_owned(cell))
+        scale = std::max(
+          {scale, permeability[cell].horizontal, permeability[cell].vertical});
+    scale = Utilities::MPI::max(scale, grid->communicator());
+    CellIntegrals integrals(*grid);
+    matrices.clear();
+    for (const unsigned int cell : cells)
       {
-        return r < other.r;
+        const double      filled = mudline.filled()[cell];
+        const Conductance k      = {permeability[cell].horizontal * filled,
+                                    permeability[cell].vertical / filled};
+        integrals.reinit(cell);
+        matrices.push_back(
+          integrals.stiffness({k.horizontal / scale, k.vertical / scale}));
       }
+    // 2. the known values alone, from which the tolerance follows
+    phi.zero_out_ghost_values();
+    correction = 0.;
+    correction.zero_out_ghost_values();
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      if (state(node) != unknown)
+        correction.local_element(node) = phi.local_element(node) =
+          state(node) == plug ? 1. : 0.;
+    const double accuracy = tolerance * find_right_side(correction);
+    // 3. the correction of the last field
+    find_right_side(phi);
+    multigrid.solve(
+      *this, [this]() { assemble(); }, accuracy, right_side, correction);
+    phi.zero_out_ghost_values();
+    phi.add(1., correction);
+    phi.update_ghost_values();
+    grid->hanging_nodes().interpolate(phi, 1);
+    apply(phi, residual_);
+    residual_ *= scale;
+  }
 
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &r &flow &conductivity;
-      }
-    };
-
-    /** Fit i = a + b d^2 over the distance d < @p width from @p wall, each
-     * outlet weighted with its conductivity times 1 - (d / width)^2, and return
-     * a. Units: m. */
-    double
-    gradient_at_wall(const std::vector<Outlet> &outlets,
-                     const double               wall,
-                     const double               width)
-    {
-      double one = 0., x = 0., xx = 0., i = 0., ix = 0.;
-      for (const Outlet &o : outlets)
-        {
-          const double d = (wall - o.r) / width, square = d * d,
-                       share = std::max(0., 1. - square);
-          one += share * o.conductivity;
-          x += share * o.conductivity * square;
-          xx += share * o.conductivity * square * square;
-          i += share * o.flow;
-          ix += share * o.flow * square;
-        }
-      const double determinant = one * xx - x * x;
-      // no other node within the width
-      if (determinant <= 1e-9 * one * one)
-        return outlets.back().flow / outlets.back().conductivity;
-      return (i * xx - ix * x) / determinant;
-    }
-  } // namespace
-
-  ExitGradient
-  exit_gradient(const BackgroundGrid           &grid,
-                const Mudline                  &mudline,
-                const std::vector<Conductance> &permeability,
-                const NodalData                &outflow,
-                const double                    wall,
-                const double                    width)
+  std::array<double, 2>
+  Seepage::sums_of_plug_and_open() const
   {
-    const NodalData conductivity =
-      conductivity_of_plug(grid, mudline, permeability);
-    std::vector<Outlet> own;
-    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      if (conductivity.local_element(node) > 0.)
-        own.push_back({grid.r_of(node),
-                       outflow.local_element(node),
-                       conductivity.local_element(node)});
-    std::vector<Outlet> outlets;
-    for (const auto &of_rank :
-         Utilities::MPI::all_gather(grid.communicator(), own))
-      outlets.insert(outlets.end(), of_rank.begin(), of_rank.end());
-    std::sort(outlets.begin(), outlets.end());
-    ExitGradient result;
-    if (outlets.empty())
-      return result;
-    result.axis = outlets.front().flow / outlets.front().conductivity;
-    result.wall = gradient_at_wall(outlets, wall, width);
-    return result;
+    std::array<double, 2> sums = {};
+    for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
+      if (state(node) >= open)
+        sums[state(node) == open] += residual_.local_element(node);
+    for (double &sum : sums)
+      sum =
+        grid->circumference() * Utilities::MPI::sum(sum, grid->communicator());
+    return sums;
   }
 } // namespace CaissonMPM

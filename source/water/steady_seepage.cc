@@ -53,8 +53,10 @@ namespace CaissonMPM
 
   SteadySeepage::SteadySeepage(const WaterScene &scene)
     : FlowingWater(scene)
+    , flows(scene.settings.level == WaterLevel::seepage)
   {
-    traits_.resists_body = lid && lid->is_sealed();
+    traits_.uses_permeability = flows;
+    traits_.resists_body      = !flows || (lid && lid->is_sealed());
     scene.forces.add(std::make_unique<SeepageForce>(*this));
   }
 
@@ -73,11 +75,9 @@ namespace CaissonMPM
   std::vector<const Section *>
   SteadySeepage::used_groups() const
   {
-    return {&scene.settings.seepage,
-            &scene.settings.open_sides,
-            &scene.settings.sea,
-            &scene.settings.suction,
-            &scene.settings.feasibility};
+    if (flows)
+      return {&scene.settings.seepage, &scene.settings.open_sides};
+    return {&scene.settings.seepage};
   }
 
   void
@@ -85,6 +85,26 @@ namespace CaissonMPM
   {
     FlowingWater::reinit();
     seepage.initialize(scene.grid);
+    if (flows)
+      return;
+    // the plug would answer to the water beneath the lid with a delay
+    if (lid->is_sealed())
+      throw BadInput(
+        "Water/Suction control is sealed, but Water/Level is " +
+        scene.settings.level_name() +
+        ": the water beneath a sealed lid follows the soil only in a coupled "
+        "run. Set Water/Level = coupled, and the Permeability of clay to 1e-9 "
+        "m/s.");
+    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+      if (const SoilMaterial &material = scene.soil.material(i);
+          scene.settings.level == WaterLevel::drained &&
+          !material.has_undrained_strength())
+        throw BadInput(
+          "Water/Suction control is set, and Water/Level is drained, but " +
+          material.section() +
+          " is no clay with an undrained strength (Friction angle = 0 and a "
+          "Cohesion): water would flow through it. Set Water/Level = seepage "
+          "or coupled, or, for no suction, Suction control = automatic.");
   }
 
   std::vector<GridField>
@@ -126,10 +146,7 @@ namespace CaissonMPM
   {
     find_mudline();
     find_permeability();
-    seepage.solve(scene.grid,
-                  mudline,
-                  soil_in_cells.permeability,
-                  scene.settings.sides);
+    seepage.solve(mudline, soil_in_cells.permeability, scene.settings.sides);
     if (!tip_is_in_clay())
       fill_clay_of_plug();
     tip.integrate(
@@ -142,9 +159,9 @@ namespace CaissonMPM
       [this](const unsigned int cell) {
         return mudline.filled()[cell] >= Mudline::touching ? 1. : 0.;
       });
-    const auto sums  = seepage.solver().sums_by_state(seepage.residual());
-    flow_out         = sums[PressureSolver::plug];
-    flow_in          = -sums[PressureSolver::open];
+    const auto sums  = seepage.sums_of_plug_and_open();
+    flow_out         = sums[0];
+    flow_in          = -sums[1];
     is_solved        = true;
     travel_at_solve  = scene.body.motion().travel();
     steps_since_look = 0;
@@ -154,9 +171,21 @@ namespace CaissonMPM
   void
   SteadySeepage::find_permeability()
   {
-    soil_in_cells.compute(scene.grid, scene.points, scene.soil, 1.);
-    if (tip_is_in_clay())
-      spread_in_plug();
+    if (flows)
+      soil_in_cells.compute(scene.grid, scene.points, scene.soil, 1.);
+    else
+      {
+        soil_in_cells.permeability.assign(scene.grid.n_cells(), {1., 1.});
+        soil_in_cells.is_clay.assign(scene.grid.n_cells(), true);
+      }
+    if (flows && !tip_is_in_clay())
+      return;
+    // let the suction reach all clay in the plug, down to the tip
+    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
+      if (soil_in_cells.is_clay[cell] && is_in_plug(cell))
+        for (double *const k : {&soil_in_cells.permeability[cell].horizontal,
+                                &soil_in_cells.permeability[cell].vertical})
+          *k *= faster_in_plug;
   }
 
   bool
@@ -172,16 +201,6 @@ namespace CaissonMPM
     const auto &g = scene.grid.geometry(cell);
     return mudline.side_of(cell) == Mudline::Side::plug &&
            g.bottom_left + .5 * g.height_left > -scene.body.penetration();
-  }
-
-  void
-  SteadySeepage::spread_in_plug()
-  {
-    for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
-      if (soil_in_cells.is_clay[cell] && is_in_plug(cell))
-        for (double *const k : {&soil_in_cells.permeability[cell].horizontal,
-                                &soil_in_cells.permeability[cell].vertical})
-          *k *= faster_in_plug;
   }
 
   void
@@ -211,14 +230,18 @@ namespace CaissonMPM
   {
     WaterFlow result;
     result.scale           = suction() / scene.soil.unit_weight_of_water();
-    result.out             = flow_out;
-    result.in              = flow_in;
+    result.flows           = flows;
     result.tip_force       = -suction() * tip.value();
     result.tip_area        = tip.value();
     result.pressure_factor = tip.at_tip() / tip.area();
     result.plug_rate       = plug_rate;
-    result.response        = flow_out / scene.soil.unit_weight_of_water();
-    result.n_iterations    = seepage.solver().n_iterations();
+    result.n_iterations    = seepage.n_iterations();
+    if (flows)
+      {
+        result.out      = flow_out;
+        result.in       = flow_in;
+        result.response = flow_out / scene.soil.unit_weight_of_water();
+      }
     return result;
   }
 

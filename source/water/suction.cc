@@ -76,7 +76,6 @@ namespace CaissonMPM
       Patterns::List(Patterns::List(Patterns::Double(), 2, 2, ":"), 0, 10000));
     add_entries_of_pump();
     add_entries_of_water_beneath_lid();
-    parse_parameters_call_back.connect([this]() { fill_tables(); });
   }
 
   void
@@ -141,13 +140,13 @@ namespace CaissonMPM
       "The flow of water through a valve that is not tight into the space "
       "beneath a sealed lid, over the suction.",
       Patterns::Double(0.));
-  }
-
-  void
-  SuctionSettings::fill_tables()
-  {
-    table      = parse_time_table(table_text);
-    flow_table = parse_time_table(flow_text);
+    parse_parameters_call_back.connect([this]() {
+      table        = parse_time_table(table_text);
+      flow_table   = parse_time_table(flow_text);
+      largest_flow = 0.;
+      for (const auto &entry : flow_table)
+        largest_flow = std::max(largest_flow, entry.second);
+    });
   }
 
   void
@@ -158,9 +157,6 @@ namespace CaissonMPM
                      "is empty. List pairs time : suction.");
     check_time_table(table, "Water/Suction table");
     check_time_table(flow_table, "Water/Pumped flow table");
-    double largest_flow = 0.;
-    for (const auto &entry : flow_table)
-      largest_flow = std::max(largest_flow, entry.second);
     if (control == Control::flow && largest_flow <= 0.)
       throw BadInput("Water/Suction control is flow, but Water/Pumped flow "
                      "table has no flow. List pairs time : flow, in m3/s.");
@@ -197,9 +193,12 @@ namespace CaissonMPM
     return result;
   }
 
-  Suction::Suction(const SuctionSettings &settings, const SeaSettings &sea)
+  Suction::Suction(const SuctionSettings &settings,
+                   const SeaSettings     &sea,
+                   const Soil            &soil)
     : settings(settings)
     , sea(sea)
+    , soil(soil)
   {}
 
   void
@@ -228,15 +227,12 @@ namespace CaissonMPM
   void
   Suction::pump(const double time, const double dt, const SuctionLoad &load)
   {
-    double most = 0.;
-    for (const auto &entry : settings.flow_table)
-      most = std::max(most, entry.second);
     const double missing =
       dt * value_at(settings.flow_table, time) - (load.volume - last_volume);
     constexpr double share = .1; // at which a body that is lowered is fastest
     const double     rate  = share * (load.weight / load.area + suction) /
-                        (most * settings.pump_delay); // Pa/m3
-    const double ambient = sea.ambient_pressure(unit_weight_of_water),
+                        (settings.largest_flow * settings.pump_delay); // Pa/m3
+    const double ambient = sea.ambient_pressure(soil.unit_weight_of_water()),
                  left    = ambient - suction,
                  volume  = settings.gas * ambient / left;
     if (volume * rate > left) // gas gives way more
@@ -250,13 +246,13 @@ namespace CaissonMPM
   Suction::gas_expansion() const
   {
     return settings.gas * suction /
-           (sea.ambient_pressure(unit_weight_of_water) - suction);
+           (sea.ambient_pressure(soil.unit_weight_of_water()) - suction);
   }
 
   double
   Suction::cavitation(const double height) const
   {
-    return sea.cavitation(unit_weight_of_water, height);
+    return sea.cavitation(soil.unit_weight_of_water(), height);
   }
 
   std::string

@@ -13,33 +13,26 @@ namespace CaissonMPM
   {
     // Below this share of a load, undrained soil changes its volume noticeably.
     constexpr double least_share = .9;
-
-    /** What the water bears of a load on confined undrained soil. */
-    double
-    share_of_load(const Kernels::Material &material)
-    {
-      return material.water_modulus / material.p_wave_modulus;
-    }
   } // namespace
 
   UndrainedWater::UndrainedWater(const WaterScene &scene)
     : PoreWater(scene)
     , connection(
         scene.grid.signals.after_change.connect([this]() { reinit(); }))
+    , extremes(scene)
   {
     traits_.has_excess_pressure = true;
     traits_.resists_body        = true;
     traits_.bulk_modulus        = scene.settings.undrained.bulk_modulus;
-    if (UndrainedSuction::is_wanted(scene))
+    if (scene.asks_for_suction())
       {
-        suction     = std::make_unique<UndrainedSuction>(scene);
+        suction     = std::make_unique<SteadySeepage>(scene);
         traits_.lid = suction->traits().lid;
         of_suction  = suction->present_columns();
       }
     else
       of_suction = {{"tip_water_force_N", 0.}};
     scene.totals.keep("undrained_water_time", time);
-    extremes.register_totals(scene.totals);
   }
 
   void
@@ -52,24 +45,12 @@ namespace CaissonMPM
       suction->check_parameters();
   }
 
-  void
-  UndrainedWater::name_unused_entries(ParameterOrigins &origins) const
-  {
-    PoreWater::name_unused_entries(origins);
-    if (suction)
-      scene.settings.suction.name_unused_entries(origins);
-  }
-
   std::vector<const Section *>
   UndrainedWater::used_groups() const
   {
-    std::vector<const Section *> used = {&scene.settings.undrained,
-                                         &scene.settings.sea};
+    std::vector<const Section *> used = {&scene.settings.undrained};
     if (suction)
-      used.insert(used.end(),
-                  {&scene.settings.seepage,
-                   &scene.settings.suction,
-                   &scene.settings.feasibility});
+      used.push_back(&scene.settings.seepage);
     return used;
   }
 
@@ -154,14 +135,13 @@ namespace CaissonMPM
   {
     if (suction)
       of_suction = suction->columns();
-    const double gamma = scene.soil.unit_weight_of_water();
-    extremes.begin(gamma, scene.settings.sea.cavitation(gamma, 0.));
+    extremes.begin();
     for (const double p : pressure)
       extremes.include(p);
     if (!pressure.empty())
       for (const unsigned int cell : scene.points.cells_with_points())
         extremes.include_in(pressure[cell], scene.grid.geometry(cell));
-    extremes.end(scene.grid.communicator());
+    extremes.end();
     return present_columns();
   }
 
@@ -186,7 +166,8 @@ namespace CaissonMPM
     WaterReport result = suction ? suction->report(materials) : WaterReport();
     for (const unsigned int i : scene.soil.uppermost_materials())
       {
-        const double      share = share_of_load(materials[i]);
+        const double share =
+          materials[i].water_modulus / materials[i].p_wave_modulus;
         const std::string layer = to_text(scene.soil.material(i).layer + 1);
         result.lines.emplace_back("water in layer " + layer,
                                   "undrained, bears " + to_text(share, 3) +

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/patterns.h>
 
-#include <algorithm>
-
 namespace CaissonMPM
 {
   using namespace dealii;
@@ -43,7 +41,7 @@ namespace CaissonMPM
       Patterns::Double(1e-6, 1.));
   }
 
-  CoupledSettings::CoupledSettings(PressureSolver::OpenSides &sides)
+  CoupledSettings::CoupledSettings(OpenSides &sides)
     : Section("/Water", Influence::motion)
   {
     add_parameter(
@@ -68,7 +66,7 @@ namespace CaissonMPM
       "expression in the time t.");
   }
 
-  OpenSideSettings::OpenSideSettings(PressureSolver::OpenSides &sides)
+  OpenSideSettings::OpenSideSettings(OpenSides &sides)
     : Section("/Water", Influence::motion)
   {
     add_parameter(
@@ -106,29 +104,5 @@ namespace CaissonMPM
   WaterSettings::level_name() const
   {
     return name_of(levels, level);
-  }
-
-  void
-  WaterSettings::name_unused_groups(ParameterOrigins                   &origins,
-                                    const std::vector<const Section *> &used,
-                                    const std::string &why) const
-  {
-    const std::vector<const Section *> groups = {&undrained,
-                                                 &seepage,
-                                                 &coupled,
-                                                 &open_sides,
-                                                 &sea,
-                                                 &suction,
-                                                 &feasibility,
-                                                 &design};
-    std::vector<std::string>           unused;
-    for (const Section *const group : groups)
-      if (std::find(used.begin(),
-                    used.end(),
-                    group == &design ? &feasibility : group) == used.end())
-        unused.insert(unused.end(),
-                      group->entries().begin(),
-                      group->entries().end());
-    origins.add_unused(unused, why);
   }
 } // namespace CaissonMPM

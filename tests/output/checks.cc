@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The errors of output/comparisons.h on numbers that can be worked out by hand,
-// the fit of a damped wave, and the messages about what cannot be understood.
+// and the messages about what cannot be understood.
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/checks/comparisons.h>
-#include <caisson_mpm/checks/damped_wave.h>
 #include <caisson_mpm/checks/verification.h>
 
 #include <cmath>
@@ -26,55 +25,37 @@ show(const std::string &mode, const Comparison &c)
 void
 compare_points()
 {
-  const PointSamples samples = {{5., 0.8}, {4., 1.}, {3., 1.}};
-  for (const auto &[name, mode] : point_modes())
-    show(name, mode.compare(samples));
+  const Samples samples = {{5., 0.8}, {4., 1.}, {3., 1.}, {}};
+  for (const auto &[name, mode] : check_modes())
+    if (mode.of_points)
+      show(name, mode.compare(samples));
   std::printf("where the exact value is 0\n");
-  const PointSamples zero = {{.5, -.25}, {0., 0.}, {1., 1.}};
-  for (const auto &[name, mode] : point_modes())
-    show(name, mode.compare(zero));
+  const Samples zero = {{.5, -.25}, {0., 0.}, {1., 1.}, {}};
+  for (const auto &[name, mode] : check_modes())
+    if (mode.of_points)
+      show(name, mode.compare(zero));
   std::printf("not a number\n");
-  const PointSamples none = {{std::nan(""), 1.}, {1., 1.}, {1., 1.}};
-  for (const auto &[name, mode] : point_modes())
-    std::printf("%s passes: %s\n",
-                name.c_str(),
-                mode.compare(none).error <= 1e9 ? "yes" : "no");
+  const Samples none = {{std::nan(""), 1.}, {1., 1.}, {1., 1.}, {}};
+  for (const auto &[name, mode] : check_modes())
+    if (mode.of_points)
+      std::printf("%s passes: %s\n",
+                  name.c_str(),
+                  mode.compare(none).error <= 1e9 ? "yes" : "no");
 }
 
 void
 compare_series()
 {
-  const SeriesSamples samples = {{{0., 1., 2.}, {1., 2.5, 4.}},
-                                 {1., 2., 5.},
-                                 {1., 2., 6.}};
+  const Samples samples = {{1., 2.5, 4.}, {1., 2., 5.}, {}, {1., 2., 6.}};
   for (const char *name :
        {"trace", "final", "average", "drift", "below", "above", "between"})
-    show(name, series_modes().at(name).compare(samples));
+    show(name, check_modes().at(name).compare(samples));
   std::printf("within the bounds\n");
-  const SeriesSamples inside = {{{0.}, {5.5}}, {5.}, {6.}};
+  const Samples inside = {{5.5}, {5.}, {}, {6.}};
   for (const char *name : {"above", "between"})
-    show(name, series_modes().at(name).compare(inside));
-  const SeriesSamples less = {{{0.}, {4.5}}, {5.}, {6.}};
-  show("below", series_modes().at("below").compare(less));
-}
-
-/** w and g are found from 100 values in 2.2 periods, whatever the phase. */
-void
-fit(const double w, const double g, const double phase, const double offset)
-{
-  Series series;
-  for (unsigned int i = 0; i < 100; ++i)
-    {
-      const double t = 5. + i * .022 * 2. * 3.14159265358979 / w;
-      series.time.push_back(t);
-      series.value.push_back(offset +
-                             std::exp(-g * t) * std::cos(w * t + phase));
-    }
-  const DampedWave wave = fit_damped_wave(series);
-  std::printf("w / w_exact %.6f, g / w %.6f, after two periods %.6f\n",
-              wave.frequency / w,
-              wave.damping / w,
-              wave.left_after_two_periods());
+    show(name, check_modes().at(name).compare(inside));
+  const Samples less = {{4.5}, {5.}, {}, {6.}};
+  show("below", check_modes().at("below").compare(less));
 }
 
 /** Set the entry of section Verification, and print the beginning of what the
@@ -148,18 +129,5 @@ main(int, char **)
   compare_points();
   std::printf("series\n");
   compare_series();
-  std::printf("damped waves\n");
-  fit(1400., 0., 0., 0.);
-  fit(1400., 7., 0., 0.);
-  fit(.3, .006, 1., -10.);
-  fit(2., -.01, 2.5, 3.);
-  const SeriesSamples straight = {{{0., 1., 2., 3., 4., 5., 6., 7., 8., 9.},
-                                   {0., 1., 2., 3., 4., 5., 6., 7., 8., 9.}},
-                                  {1.},
-                                  {1.}};
-  std::printf("a straight line passes: %s\n",
-              series_modes().at("frequency").compare(straight).error <= 1e9 ?
-                "yes" :
-                "no");
   return 0;
 }

@@ -12,15 +12,11 @@
 //   trace:     max |v - e| / max |e|,
 //   final:     |v - e| / |e| at the last record,
 //   average:   |<v> - <e>| / |<e>|,  <.> the mean over the records,
-//   frequency, amplitude: of w and of exp(-g T) after two periods T, by the fit
-//              c + exp(-g t) (a cos(w t) + b sin(w t)),
 //   drift:     max |v - v(first)| / max |v|,
 //   below, above, between: by how much the last v is outside its bounds.
 // Where the number that would be divided by is 0 the error is absolute.
 #ifndef caisson_mpm_checks_comparisons_h
 #define caisson_mpm_checks_comparisons_h
-
-#include <caisson_mpm/output/records.h>
 
 #include <map>
 #include <string>
@@ -36,18 +32,11 @@ namespace CaissonMPM
     double error    = 0.;
   };
 
-  /** What all points have: [n_points] each. */
-  struct PointSamples
+  /** The values at all points, with their volumes, or at all records. For
+   * between, exact and upper are the bounds. */
+  struct Samples
   {
-    std::vector<double> computed, exact, volume;
-  };
-
-  /** What all records have: [n_records] each. For between, exact and upper are
-   * the bounds. */
-  struct SeriesSamples
-  {
-    Series              computed;
-    std::vector<double> exact, upper;
+    std::vector<double> computed, exact, volume, upper;
   };
 
   /** What a check with this mode says behind its first colon. */
@@ -59,22 +48,18 @@ namespace CaissonMPM
     bounds     // the lower and the upper bound
   };
 
-  /** A way to compare; the name is its key in the lists below. */
-  template <typename Samples>
+  /** A way to compare points or records. */
   struct CheckMode
   {
     Comparison (*compare)(const Samples &);
-    CheckForm form;
+    CheckForm   form;
+    bool        of_points;
+    const char *scale = "the exact value"; // that the error is divided by
   };
 
-  using PointModes  = std::map<std::string, CheckMode<PointSamples>>;
-  using SeriesModes = std::map<std::string, CheckMode<SeriesSamples>>;
-
-  const PointModes &
-  point_modes();
-
-  const SeriesModes &
-  series_modes();
+  /** All of them by name. */
+  const std::map<std::string, CheckMode> &
+  check_modes();
 } // namespace CaissonMPM
 
 #endif

@@ -32,9 +32,9 @@ namespace CaissonMPM
   struct Observation
   {
     std::string            name;
-    const ObservationKind *kind     = nullptr;
-    PointQuantity          quantity = nullptr;
-    double                 share    = 0.; // of a quantile
+    const ObservationKind *kind = nullptr;
+    PointQuantity          quantity;
+    double                 share = 0.;    // of a quantile
     dealii::Point<2>       place;         // of a point
     Expression             shape, region; // or empty
   };

@@ -6,67 +6,43 @@
 #define caisson_mpm_output_point_quantities_h
 
 #include <caisson_mpm/domain/point_fields.h>
-#include <caisson_mpm/kernels/user_point.h>
 
 #include <cmath>
-#include <cstddef>
-#include <limits>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** How a quantity follows from a material point: a field of it, a function of
-   * several, or a state variable of a user material. */
+  /** How a quantity follows from a material point. */
   class PointQuantity
   {
   public:
-    using Function = double (*)(const MaterialPoint &);
-
-    PointQuantity(const Function function = nullptr)
+    using Function = std::function<double(const MaterialPoint &)>;
+    PointQuantity(const Function &function = {})
       : function(function)
     {}
-
-    /** The field at this distance from the begin of a point. Units: bytes. */
-    explicit PointQuantity(const std::size_t offset)
-      : offset(offset)
-    {}
-
-    /** The state variable of a user material, counted from 0. */
+    /** The state variable of a user material, counted from 0; not a number at a
+     * point whose law does not keep it. */
     static PointQuantity
-    state_variable(const unsigned int i)
-    {
-      PointQuantity result;
-      result.in_user_state = Kernels::UserState::variables + i;
-      return result;
-    }
-
+    state_variable(const unsigned int i);
     double
     operator()(const MaterialPoint &p) const
     {
-      if (in_user_state > 0)
-        return in_user_state < p.user_state.size() ?
-                 p.user_state[in_user_state] :
-                 std::numeric_limits<double>::quiet_NaN();
-      return function != nullptr ?
-               function(p) :
-               *reinterpret_cast<const double *>(
-                 reinterpret_cast<const char *>(&p) + offset);
+      return function(p);
     }
-
     /** Whether the point lacks it: a state variable that its law does not keep.
      */
     bool
     is_missing(const MaterialPoint &p) const
     {
-      return in_user_state > 0 && std::isnan((*this)(p));
+      return is_state && std::isnan(function(p));
     }
 
   private:
-    Function    function      = nullptr;
-    std::size_t offset        = 0;
-    std::size_t in_user_state = 0; // 0: none
+    Function function;
+    bool     is_state = false; // of a user material
   };
 
   /** A quantity with its name, unit and meaning, as a field has them. */

@@ -9,6 +9,7 @@
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/row_file.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -81,11 +82,9 @@ namespace CaissonMPM
 
     /** A column by its name, from @p begin to @p end. Units: s. */
     Series
-    series(const std::string &name, const double begin, const double end) const;
-
-    /** A whole column by its name. */
-    Series
-    series(const std::string &name) const;
+    series(const std::string &name,
+           const double       begin = 0.,
+           const double       end   = std::numeric_limits<double>::max()) const;
 
   private:
     const Observations              &observations;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Frames of the material points, of the background grid and of the rigid body
-// for ParaView: output/frame_text.h describes what is in them.
+// for ParaView: output/frame_data.h describes what is in them.
 #ifndef caisson_mpm_output_visualization_h
 #define caisson_mpm_output_visualization_h
 
@@ -12,7 +12,6 @@
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CaissonMPM

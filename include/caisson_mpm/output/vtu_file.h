@@ -1,31 +1,76 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One .vtu file with what all ranks have, in pieces.
+// A .vtu file with an unstructured grid in pieces.
+//
+// deal.II writes what belongs to a cell as values of points, and no tensor with
+// a component across its plane; hence a writer of our own. The format is that
+// of VTK: "VTK File Formats" (Kitware), arrays compressed by zlib.
 #ifndef caisson_mpm_output_vtu_file_h
 #define caisson_mpm_output_vtu_file_h
 
-#include <deal.II/base/mpi.h>
+#include <deal.II/base/point.h>
 
+#include <mpi.h>
+
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
+  /** Points or quadrilaterals in the plane of r and z, with their values. */
+  class VtuPiece
+  {
+  public:
+    /** An array of values, those of one point or cell after another. */
+    struct Array
+    {
+      std::string        name; // with its unit
+      unsigned int       n_components = 1;
+      std::vector<float> values;
+    };
+
+    /** Add a point, and return its number. Units: m. */
+    unsigned int
+    add_point(const dealii::Point<2> &place);
+
+    /** Add a cell of one point, or of four in the order of deal.II. */
+    void
+    add_cell(const std::vector<unsigned int> &corners);
+
+    unsigned int
+    n_cells() const
+    {
+      return offsets.size();
+    }
+
+    /** Return the element of the file; nothing where there is no cell. */
+    std::string
+    text() const;
+
+    std::vector<Array>        of_points, of_cells;
+    std::vector<std::int64_t> ids; // of the points, if there are any
+
+  private:
+    std::vector<float>         places; // three for each point
+    std::vector<std::int32_t>  connectivity, offsets;
+    std::vector<unsigned char> types;
+  };
+
   /**
-   * Write one file of the format VTU from pieces of all ranks: its name and its
-   * form are the same on any number of ranks and for any number of pieces.
-   *
-   * make(i) gives the text of the file that the i-th piece of this rank would
-   * be, or no text, of @p n_pieces, the same number on each rank. One piece is in the memory
-   * of each rank at a time; the first rank gets them one after the other and
-   * writes. A piece takes less than 2 GB. Throws RunFailure on all ranks where
-   * the file cannot be written. Collective.
+   * Write one file with the pieces make(i) of all ranks, @p n_pieces of each:
+   * its form is the same on any number of ranks and for any number of pieces.
+   * One piece of each rank is in the memory of the first one at a time. Throws
+   * RunFailure on all ranks where the file cannot be written. Collective.
+   * Units: s.
    */
   void
-  write_vtu_file(const std::string                              &path,
-                 const MPI_Comm                                  communicator,
-                 const unsigned int                              n_pieces,
-                 const std::function<std::string(unsigned int)> &make);
+  write_vtu_file(const std::string                           &path,
+                 const MPI_Comm                               communicator,
+                 const double                                 time,
+                 const unsigned int                           n_pieces,
+                 const std::function<VtuPiece(unsigned int)> &make);
 } // namespace CaissonMPM
 
 #endif

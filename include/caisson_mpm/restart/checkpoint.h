@@ -5,10 +5,10 @@
 // Files in the output directory: points and fields in checkpoint-a.h5 or
 // checkpoint-b.h5 in turn (point_file.h), and the text checkpoint.info, which
 // says which of the two is valid and has the rest of the state by name, with
-// checksums of points, fields and its own text. Both are read back before,
-// and the text is replaced last and at once, so that a run that is killed at
-// any time leaves one complete checkpoint. The mesh follows from the parameters
-// and the travel. Memory: some megabytes, however many points there are.
+// checksums of that file and of its own text. The text is replaced last and at
+// once, so that a run that is killed at any time leaves one complete
+// checkpoint. The mesh follows from the parameters and the travel. Memory: some
+// megabytes, however many points there are.
 #ifndef caisson_mpm_restart_checkpoint_h
 #define caisson_mpm_restart_checkpoint_h
 
@@ -16,7 +16,6 @@
 #include <caisson_mpm/domain/grid_fields.h>
 #include <caisson_mpm/domain/material_points.h>
 
-#include <cstdint>
 #include <string>
 
 namespace CaissonMPM
@@ -26,8 +25,8 @@ namespace CaissonMPM
    * must know: values of all ranks, of which the first one's are written. @p
    * warnings is what the run has said, one line each. @p
    * fingerprint is the text of all parameters that must be the same when the
-   * run is resumed, one per line. Throws RunFailure where there is no room or
-   * the file is not as it should be; the previous checkpoint is still valid
+   * run is resumed, one per line. Throws RunFailure where the file
+   * cannot be written; the previous checkpoint is still valid
    * then. Collective.
    */
   void
@@ -51,25 +50,35 @@ namespace CaissonMPM
      * checkpoint, or its text is damaged. */
     explicit Checkpoint(const std::string &directory);
 
-    /** Return the numbers that were written. */
+    /** What checkpoint.info says. */
+    struct Info
+    {
+      std::string              file; // checkpoint-a.h5 or checkpoint-b.h5
+      std::string              checksum_of_file;
+      unsigned long            n_points = 0;
+      std::string              columns; // of the table of points
+      std::vector<std::string> fields;  // their names
+      NamedNumbers             state;   // the numbers that were written
+      std::vector<std::string> warnings;
+      std::string              fingerprint; // that it was written with
+    };
+
     const NamedNumbers &
     state() const
     {
-      return state_;
+      return info.state;
     }
 
-    /** Return the warnings that were written. */
     const std::vector<std::string> &
     warnings() const
     {
-      return warnings_;
+      return info.warnings;
     }
 
-    /** Return the fingerprint that it was written with. */
     const std::string &
     fingerprint() const
     {
-      return fingerprint_;
+      return info.fingerprint;
     }
 
     /** Throw BadInput, with the first line that differs, where @p fingerprint
@@ -81,28 +90,19 @@ namespace CaissonMPM
      * Bring the points to the state of the checkpoint; from the rest of it, the
      * caller moves the grid. The mesh of the same scene must have been created,
      * on as many ranks as you like; @p points are replaced. Points of a cell
-     * keep their order. Throws BadInput where the points are damaged.
-     * Collective.
+     * keep their order. Throws BadInput where the file of points and fields is
+     * damaged. Collective.
      */
     void
     read_points(const BackgroundGrid &grid, MaterialPoints &points) const;
 
-    /** Return the fields. Throws BadInput where they are damaged. Collective.
-     */
+    /** Return the fields, after read_points(). */
     NamedFields
-    read_fields(const MPI_Comm communicator) const;
-
-    /** A field as the text has it: its name, and a checksum of its values. */
-    using FieldSum = std::pair<std::string, std::string>;
+    read_fields() const;
 
   private:
-    std::string              directory, file;
-    unsigned long            n_points = 0;
-    std::uint64_t            checksum = 0; // of the points
-    std::vector<FieldSum>    fields;
-    NamedNumbers             state_;
-    std::vector<std::string> warnings_;
-    std::string              fingerprint_;
+    std::string directory;
+    Info        info;
   };
 } // namespace CaissonMPM
 

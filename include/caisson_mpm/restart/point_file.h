@@ -1,122 +1,93 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Material points in an HDF5 file.
+// Material points and fields of the grid in an HDF5 file: the dataset "points"
+// [n_points][n_columns] of doubles, and one dataset [n_places] for each field.
+// A row is a point: the global number of its cell, its material, its fields
+// (kernels/point_fields.h) to the last digit, in SI units, and what a user's
+// law keeps, if there is one. The attribute "columns" of "points" names the
+// columns.
 #ifndef caisson_mpm_restart_point_file_h
 #define caisson_mpm_restart_point_file_h
 
+#include <caisson_mpm/domain/grid_fields.h>
+#include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_exchange.h>
 
 #include <hdf5.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /**
-   * A file with one dataset of doubles, "points" [n_points][n_columns]. A row
-   * is a point: the global number of its cell, its material, and its fields
-   * (kernels/point_fields.h) to the last digit, in SI units, and what a user's
-   * law keeps, if there is one. The attribute
-   * "columns" of the dataset names the columns; a file with others is not read.
-   * Fields of the grid are further datasets [n_places], each with its name.
-   *
-   * Any number of ranks share a file. To open and to close it is collective; in
-   * between each rank writes or reads whichever rows it likes. Nothing throws
-   * where the file cannot be written or read: close() reports it, so that all
-   * ranks can agree. (deal.II's classes for HDF5 look for errors in Debug mode
-   * only.)
-   */
+  /** Notes that a function of HDF5 has failed, instead of printing it. deal.II
+   * looks for errors of HDF5 in Debug mode only. */
+  class Hdf5Errors
+  {
+  public:
+    Hdf5Errors();
+
+    ~Hdf5Errors();
+
+    bool
+    any() const
+    {
+      return any_;
+    }
+
+  private:
+    bool any_ = false;
+  };
+
+  /** Points that a rank reads or writes at once. */
+  constexpr unsigned long rows_per_piece = 20000;
+
+  /** Return the names of the columns, separated by blanks, for points with so
+   * many numbers of a user's law. */
+  std::string
+  names_of_columns(const unsigned int n_user_state);
+
+  /** Write the points of all ranks, one rank's after the other's, each in the
+   * order of its cells, and the fields of the first rank. Returns whether this
+   * rank has met no error. Collective. */
+  bool
+  write_point_file(const std::string    &path,
+                   const BackgroundGrid &grid,
+                   const MaterialPoints &points,
+                   const NamedFields    &fields);
+
+  /** A file of points that is read, by each rank on its own. Where something
+   * cannot be read, succeeded() is false, and the values mean nothing. */
   class PointFile
   {
   public:
-    enum class Access
-    {
-      create,
-      read
-    };
+    explicit PointFile(const std::string &path);
 
-    /** The size of a row. Units: bytes. */
-    static unsigned int
-    bytes_per_point(const unsigned int n_user_state);
-
-    /** Create a file for so many points, with so many numbers of a user's law
-     * each, or open the one that has as many points. Collective. */
-    PointFile(const std::string  &path,
-              const Access        access,
-              const unsigned long n_points,
-              const MPI_Comm      communicator,
-              const unsigned int  n_user_state = 0);
     ~PointFile();
 
     PointFile(const PointFile &) = delete;
     PointFile &
     operator=(const PointFile &) = delete;
 
-    /** Write the points to the rows from @p first_row on. */
-    void
-    write(const unsigned long                first_row,
-          const std::vector<TravelingPoint> &points);
-
-    /** The points of @p n rows from @p first_row on. Their contents mean
-     * nothing where this fails. */
+    /** Return the points of @p n rows from @p first_row on. */
     std::vector<TravelingPoint>
-    read(const unsigned long first_row, const unsigned long n);
+    read(const unsigned long first_row,
+         const unsigned long n,
+         const unsigned int  n_user_state) const;
 
-    /** Write a field, which every rank passes. Collective. */
-    void
-    write_field(const std::string &name, const std::vector<double> &values);
-
-    /** Return a field on all ranks, empty where there is none. Collective. */
+    /** Return a field of so many places. */
     std::vector<double>
-    read_field(const std::string &name);
+    read_field(const std::string &name) const;
 
-    /** The number of numbers that each point has of a user's law. */
-    unsigned int
-    n_user_state() const;
-
-    /** Bring all to the file and close it. Returns whether all that this rank
-     * has done with it succeeded. Collective. */
     bool
-    close();
-
-    /**
-     * A sum over the rows that this rank has written or read. The sum over
-     * ranks differs if a digit of any row does, or its place, but does not
-     * depend on who wrote or read which rows.
-     */
-    std::uint64_t
-    checksum() const
+    succeeded() const
     {
-      return sum_of_rows;
+      return !errors.any();
     }
 
   private:
-    void
-    create(const std::string &path, const hid_t access, const hsize_t n_points);
-    void
-    open(const std::string &path, const hid_t access, const hsize_t n_points);
-    void
-    name_columns();
-    std::string
-    read_names_of_columns();
-    /** Write or read rows by H5Dwrite or H5Dread, and add their checksum. */
-    template <typename Rows, typename Operation>
-    void
-    transfer(const unsigned long first_row,
-             Rows               &rows,
-             const Operation    &operation);
-
-    /** Remember a failure. Returns what HDF5 returned. */
-    hid_t
-    check(const hid_t result);
-
-    unsigned int  n_columns;
-    const bool    is_first_rank;
-    hid_t         file = -1, dataset = -1, dataspace = -1;
-    bool          succeeded   = true;
-    std::uint64_t sum_of_rows = 0;
+    const Hdf5Errors errors;
+    hid_t            file;
   };
 } // namespace CaissonMPM
 

@@ -5,7 +5,7 @@
 #define caisson_mpm_simulation_run_report_h
 
 #include <caisson_mpm/base/console.h>
-#include <caisson_mpm/output/json.h>
+#include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
 
 #include <string>
@@ -30,7 +30,7 @@ namespace CaissonMPM
     double               wall_time      = 0.; // s
     std::vector<Warning> warnings;            // of the input and of the run
     std::vector<std::string> assumed;         // entries marked so
-    Json::Members            progress;        // of a run that has not ended
+    NamedNumbers             progress;        // of a run that has not ended
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The

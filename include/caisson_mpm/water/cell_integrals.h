@@ -6,7 +6,6 @@
 #define caisson_mpm_water_cell_integrals_h
 
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/water/pressure_solver.h>
 
 #include <deal.II/fe/fe_values.h>
 
@@ -20,6 +19,9 @@ namespace CaissonMPM
     double horizontal = 0., vertical = 0.;
   };
 
+  /** A matrix of the corners of a cell, by rows. */
+  using CellMatrix = std::array<double, 16>;
+
   /** The integrals over cells of the mesh where it is now. An object is for one
    * position of the mesh: deal.II keeps what it knows of a cell that has not
    * changed its shape from one cell to the next. */
@@ -32,7 +34,7 @@ namespace CaissonMPM
     reinit(const unsigned int cell);
 
     /** int c_r dN_i/dr dN_j/dr + c_z dN_i/dz dN_j/dz. */
-    PressureSolver::CellMatrix
+    CellMatrix
     stiffness(const Conductance &c) const;
 
     /** int div v for the nodal velocities v_r and v_z in turn. */

@@ -8,8 +8,8 @@
 #define caisson_mpm_water_cell_pressure_solver_h
 
 #include <caisson_mpm/operators/boundary_conditions.h>
+#include <caisson_mpm/water/kept_multigrid.h>
 #include <caisson_mpm/water/mudline.h>
-#include <caisson_mpm/water/pressure_solver.h>
 
 #include <deal.II/dofs/dof_handler.h>
 
@@ -34,16 +34,6 @@ namespace CaissonMPM
   class CellPressureSolver
   {
   public:
-    /** What is beyond a face. */
-    enum class Beyond : unsigned char
-    {
-      cell,
-      plug,    // the water above the mudline inside the body
-      outside, // the open water
-      bottom,  // of the mesh, if it is open
-      n_kinds
-    };
-
     struct Face
     {
       Beyond       beyond;
@@ -57,9 +47,6 @@ namespace CaissonMPM
       double distance, other_distance; // from the centers, m
     };
 
-    /** The known pressures by Beyond; that of cell is not used. Pa */
-    using Known = std::array<double, static_cast<int>(Beyond::n_kinds)>;
-
     /** Set up what knows the cells of this rank. */
     void
     initialize(const BackgroundGrid &grid);
@@ -68,9 +55,9 @@ namespace CaissonMPM
      * that are open or give way. Where two cells share a face, and
      * one of them belongs to another rank, both ranks know it. */
     void
-    find_faces(const Mudline                   &mudline,
-               const PressureSolver::OpenSides &open,
-               const BoundaryConditions        &conditions);
+    find_faces(const Mudline            &mudline,
+               const OpenSides          &open,
+               const BoundaryConditions &conditions);
 
     /** The cells of this rank with water. */
     const std::vector<unsigned int> &
@@ -119,10 +106,10 @@ namespace CaissonMPM
      * than @p accuracy times that of the guess; throws RunFailure where it does
      * not. */
     void
-    solve(const CellData &source,
-          const Known    &known,
-          const double    accuracy,
-          CellData       &p);
+    solve(const CellData       &source,
+          const KnownPressures &known,
+          const double          accuracy,
+          CellData             &p);
 
     /** What is left of the equations after solve(): q_c - sum_f G_f (p_c -
      * p_f). */
@@ -155,10 +142,10 @@ namespace CaissonMPM
     /** Add those faces of a cell that are the surface or a side of the domain,
      * where they are open or give way. */
     void
-    add_sides(const unsigned int               cell,
-              const Mudline                   &mudline,
-              const PressureSolver::OpenSides &open,
-              const HeldNodes                 &held);
+    add_sides(const unsigned int cell,
+              const Mudline     &mudline,
+              const OpenSides   &open,
+              const HeldNodes   &held);
     /** Return the share of the nodes of a face that may move across it. */
     double
     free_nodes_of(const unsigned int cell,
@@ -168,11 +155,11 @@ namespace CaissonMPM
     assemble();
     /** Subtract what passes the faces from @p to. */
     void
-    subtract_flow(const CellData &p, const Known &known, CellData &to) const;
+    subtract_flow(const CellData       &p,
+                  const KnownPressures &known,
+                  CellData             &to) const;
 
     const BackgroundGrid     *grid = nullptr;
-    dealii::FE_DGQ<2>         fe{0};
-    dealii::DoFHandler<2>     dofs;
     std::vector<unsigned int> places; // [n_cells]
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     KeptMultigrid                                              multigrid;

@@ -60,14 +60,6 @@ namespace CaissonMPM
     }
 
   private:
-    /** How a layer drains while the body moves. */
-    struct Drainage
-    {
-      double c_v     = 0.; // k (lambda + 2 mu) / gamma_w, m2/s
-      double group   = 0.; // v D / c_v
-      double inertia = 0.; // c_v over the wave speed and D, with mass scaling
-    };
-
     std::vector<const Section *>
     used_groups() const override;
     void
@@ -95,11 +87,7 @@ namespace CaissonMPM
     void
     begin_with_seepage(const std::vector<double> &share_of_suction);
     void
-    integrate_over_tip();
-    /** Return the drainage of each layer; empty without a body. */
-    std::vector<Drainage>
-    drainage(const std::vector<Kernels::Material> &materials) const;
-
+                       integrate_over_tip();
     Expression         bottom_pressure; // Pa
     PressureProjection projection;
     PressureExtremes   extremes; // of the last record

@@ -34,18 +34,15 @@ namespace CaissonMPM
       : settings(settings)
     {}
 
-    /** What a record knows. Units: m, m, Pa, none. */
-    struct State
-    {
-      double penetration = 0.;
-      double extra_heave = 0.; // of the plug, beyond what the wall displaces
-      double suction     = 0.;
-      double gradient    = 0.; // over the critical one
-      double window      = 0.; // of penetration, in which a rise is measured
-    };
-
+    /** See the state at a record: the heave of the plug beyond what the wall
+     * displaces, the gradient over the critical one, and in which @p window of
+     * penetration a rise is measured. Units: m, m, Pa, none, m. */
     void
-    update(const State &state);
+    update(const double penetration,
+           const double extra_heave,
+           const double suction,
+           const double gradient,
+           const double window);
 
     /** Where it became infeasible, and why. */
     struct Place

@@ -25,8 +25,6 @@ namespace CaissonMPM
   public:
     void
     check_parameters() const override;
-    void
-    name_unused_entries(ParameterOrigins &origins) const override;
     double
     load_on_body() const override
     {

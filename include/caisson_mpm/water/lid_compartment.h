@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a caisson adds to water that flows: the suction beneath its lid, and the
-// plug of soil that it loads.
+// What a caisson adds to water that flows: the suction beneath its lid, which a
+// pump or a pull causes (suction.h, sealed_lid.h), the plug of soil that it
+// loads (plug.h), and from where on this is not feasible (feasibility.h).
 #ifndef caisson_mpm_water_lid_compartment_h
 #define caisson_mpm_water_lid_compartment_h
 
 #include <caisson_mpm/bodies/rest.h>
 #include <caisson_mpm/water/feasibility.h>
-#include <caisson_mpm/water/plug_balance.h>
-#include <caisson_mpm/water/plug_strength.h>
+#include <caisson_mpm/water/plug.h>
 #include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/sealed_lid.h>
-#include <caisson_mpm/water/seepage.h>
+#include <caisson_mpm/water/suction.h>
 
 #include <string>
 #include <vector>
@@ -35,8 +35,8 @@ namespace CaissonMPM
   };
 
   /**
-   * Owns the suction and the balances of the plug, and knows whether the soil
-   * touches the lid. A model of the water calls it in each step with the flow
+   * Lets these parts work together, and knows whether the soil touches the lid.
+   * A model of the water calls it in each step with the flow
    * that it has computed. Where it says so, functions are collective.
    */
   class LidCompartment
@@ -52,10 +52,11 @@ namespace CaissonMPM
     void
     initialize();
 
-    /** Begin with the plug below the @p mudline; only the first call counts.
-     * Collective. */
-    void
-    start(const Mudline &mudline);
+    Plug &
+    plug()
+    {
+      return plug_;
+    }
 
     /** Continue after another run. */
     void
@@ -93,25 +94,14 @@ namespace CaissonMPM
     double
     load() const
     {
-      return suction_.value() * area();
+      return suction_.value() * plug_.area();
     }
-
-    /** The area beneath the lid. Units: m2. */
-    double
-    area() const;
 
     const SuctionSettings &
     settings() const
     {
       return scene.settings.suction;
     }
-
-    /** Compute the exit gradient of the last flow, whose @p outflow is per
-     * node. Collective. */
-    void
-    update_exit_gradient(const Mudline                  &mudline,
-                         const std::vector<Conductance> &permeability,
-                         const NodalData                &outflow);
 
     /** Compute which gradients the plug withstands, and whether the
      * installation is still feasible. Collective. */
@@ -146,49 +136,24 @@ namespace CaissonMPM
     /** Of its lower face over the original mudline. Units: m. */
     double
     height_of_lid() const;
-    /** How far the plug has risen, and how far the soil that the wall displaces
-     * would make it rise. Units: m. */
-    double
-    heave(const Mudline &mudline) const;
-    double
-    heave_by_wall() const;
-    /** Return the numbers of a record that a lid with a pump has, whose plug
-     * has risen by @p rise. Units: m. */
-    NamedNumbers
-    of_pump(const double rise) const;
-
     /** Continue the water beneath a sealed lid by a step. */
     void
-    advance_sealed(const double     dt,
-                   const Mudline   &mudline,
-                   const WaterFlow &flow);
-    /** The gradient of soil that gives off hardly any water is noise, and less
-     * suction than this lifts no soil by its flow. Units: Pa. */
-    double
-    least_lifting_suction() const;
-    /** Whether the flow out of the plug nearly lifts its soil. */
-    bool
-    carries_soil(const WaterFlow &flow) const;
-
+                        advance_sealed(const double     dt,
+                                       const Mudline   &mudline,
+                                       const WaterFlow &flow);
     const WaterScene    scene;
     Suction             suction_;
     SealedLid           sealed;
-    PlugBalance         plug_balance;
-    PlugStrength        plug_strength;
+    Plug                plug_;
     Feasibility         feasibility;
     std::vector<double> filled;               // [n_cells], at the last look
-    double              touched = 0.;         // share of the area of the lid
-    ExitGradient        exit;                 // over the scale of the flow
-    WithstoodGradients  withstood;            // at the last record
+    double              touched         = 0.; // share of the area of the lid
     double              time_of_suction = 0.; // of its table, s
     double              seepage_volume  = 0.; // through the plug, m3
-    double              plug_height     = 0.; // before the installation, m
     // the volume that body and plug had displaced when this run began, m3
     double     volume_at_start = 0.;
     RecentMean recent_heave; // of the plug, m
-    bool       has_started          = false;
-    bool       has_warned_of_piping = false, has_warned_of_lift = false,
-         has_warned_of_cavity = false;
+    bool       has_warned_of_cavity = false;
   };
 } // namespace CaissonMPM
 

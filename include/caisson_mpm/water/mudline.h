@@ -13,6 +13,35 @@
 
 namespace CaissonMPM
 {
+  /** Which sides of the domain keep the pressure of the open water. */
+  struct OpenSides
+  {
+    bool outer = false, bottom = false, surface = true;
+  };
+
+  /** What is beyond a face of a cell, or beyond a node. */
+  enum class Beyond : unsigned char
+  {
+    cell,
+    plug,    // the water above the mudline inside the body
+    outside, // the open water
+    bottom   // of the mesh, if it is open
+  };
+
+  /** The known pressures; that of the open water is 0. Units: Pa. */
+  struct KnownPressures
+  {
+    double plug = 0., bottom = 0.;
+
+    double
+    operator[](const Beyond beyond) const
+    {
+      return beyond == Beyond::plug   ? plug :
+             beyond == Beyond::bottom ? bottom :
+                                        0.;
+    }
+  };
+
   /**
    * The height of a column follows from the tops of its highest points, and not
    * from how full its cells are: a cell with three points in its height fills
@@ -72,6 +101,10 @@ namespace CaissonMPM
       return sides_of_cells[cell];
     }
 
+    /** Return what is beyond each node where the pressure is known, and cell
+     * elsewhere; right for the nodes of this rank. [n_nodes] */
+    std::vector<Beyond>
+    find_beyond(const BackgroundGrid &grid, const OpenSides &open) const;
     /** Return the mean height of the soil in the columns of a side, by area.
      * Units: m. */
     double

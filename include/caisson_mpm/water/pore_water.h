@@ -35,6 +35,23 @@ namespace CaissonMPM
     const WaterSettings &settings;
     RunTotals           &totals;
     NodalForces         &forces;
+
+    /** Whether the body is a caisson, which may have suction beneath its lid.
+     */
+    bool
+    has_caisson() const
+    {
+      return body.shape().name() == "caisson";
+    }
+
+    /** Whether there is suction beneath a lid where the level has none of
+     * itself. */
+    bool
+    asks_for_suction() const
+    {
+      return has_caisson() &&
+             settings.suction.control != SuctionSettings::Control::automatic;
+    }
   };
 
   /** What other parts of the program must know of a model. */
@@ -67,13 +84,14 @@ namespace CaissonMPM
    * A derived class is one model. It is made once, by make_pore_water() when
    * all parameters are known, adds its numbers to the totals and its nodal
    * force to the forces, and follows the signals of the grid. The functions
-   * here do nothing: a model overrides what it needs, and a drained scene needs
-   * nothing. Whatever leaves a model is a pressure in Pa. None of the functions
-   * is called for a single point.
+   * here do nothing: a model overrides what it needs. Drained water, whose
+   * excess pressure is zero, needs nothing. Whatever leaves a model is a
+   * pressure in Pa. None of the functions is called for a single point.
    */
   class PoreWater
   {
   public:
+    explicit PoreWater(const WaterScene &scene);
     virtual ~PoreWater() = default;
 
     PoreWater(const PoreWater &) = delete;
@@ -97,13 +115,12 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- a step
 
-    /** At the start of a step of length @p dt, compute what is not known well
+    /** At the start of a step of this length, compute what is not known well
      * enough from earlier steps, and let the contact with a lid begin where the
      * soil touches it. Collective. Units: s. */
     virtual void
-    begin_step(const double              dt,
-               const BoundaryConditions &conditions,
-               Contact                  &contact);
+    begin_step(const double, const BoundaryConditions &, Contact &)
+    {}
 
     /** Return what the water presses the body down with: suction beneath the
      * lid, and less pressure beneath the tip. Units: N. */
@@ -135,20 +152,22 @@ namespace CaissonMPM
      * nodes have this velocity in the end, or null where the velocity alone
      * says. Collective. 1/s */
     virtual const double *
-    volume_rates(const Kernels::NodalVector             *velocity,
-                 const std::vector<Kernels::CornerView> &corners);
+    volume_rates(const Kernels::NodalVector *,
+                 const std::vector<Kernels::CornerView> &)
+    {
+      return nullptr;
+    }
 
     /**
-     * Continue to the end of a step. @p force_on_body is the force of the soil
-     * in this step, in the direction of the travel, and @p travel that of the
-     * body. Return the work at the tip that is not in that force. Units: s, N,
-     * m; J.
+     * Continue from a time by a step dt, with the force of the soil on the body
+     * in it, in the direction of the travel, and the travel of the body. Return
+     * the work at the tip that is not in that force. Units: s, N, m; J.
      */
     virtual double
-    end_step(const double time,
-             const double dt,
-             const double force_on_body,
-             const double travel);
+    end_step(const double, const double, const double, const double)
+    {
+      return 0.;
+    }
 
     /** Return why the run cannot continue, or an empty text. */
     virtual std::string
@@ -183,10 +202,13 @@ namespace CaissonMPM
       return {};
     }
 
-    /** Return what a run prints of the water. @p materials are those of the
-     * layers. */
+    /** Return what a run prints of the water, with the materials of the layers.
+     */
     virtual WaterReport
-    report(const std::vector<Kernels::Material> &materials) const;
+    report(const std::vector<Kernels::Material> &) const
+    {
+      return {};
+    }
 
     // ---------------------------------------------------------- its state
 
@@ -198,15 +220,15 @@ namespace CaissonMPM
       return {};
     }
 
-    /** Continue another run, with its totals and the @p fields of its
-     * checkpoint, in which Water/Level was @p level. Collective. */
+    /** Continue another run, with its Water/Level, its totals and the fields of
+     * its checkpoint. Collective. */
     virtual void
-    continue_after(const std::string &level, const NamedFields &fields);
+    continue_after(const std::string &, const NamedFields &)
+    {}
 
   protected:
-    explicit PoreWater(const WaterScene &scene);
-
-    /** Return the groups of entries that the model uses. */
+    /** Return the groups of entries that the model uses, besides what follows
+     * from its traits. */
     virtual std::vector<const Section *>
     used_groups() const
     {
@@ -218,14 +240,6 @@ namespace CaissonMPM
     present_columns() const
     {
       return {};
-    }
-
-    /** Whether the body is a caisson, which may have suction beneath its lid.
-     */
-    bool
-    is_caisson() const
-    {
-      return scene.body.shape().name() == "caisson";
     }
 
     /** Append a warning when a caisson is first pulled from soil whose water

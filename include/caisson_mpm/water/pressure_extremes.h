@@ -5,10 +5,7 @@
 #ifndef caisson_mpm_water_pressure_extremes_h
 #define caisson_mpm_water_pressure_extremes_h
 
-#include <caisson_mpm/base/run_totals.h>
-#include <caisson_mpm/domain/cell_geometry.h>
-
-#include <mpi.h>
+#include <caisson_mpm/water/pore_water.h>
 
 #include <array>
 #include <string>
@@ -21,10 +18,11 @@ namespace CaissonMPM
   class PressureExtremes
   {
   public:
-    /** Begin a record. @p unit_weight of the water in N/m3, @p at_rest: the
-     * margin on the mudline at rest, Pa. */
+    explicit PressureExtremes(const WaterScene &scene);
+
+    /** Begin a record. */
     void
-    begin(const double unit_weight, const double at_rest);
+    begin();
 
     /** Include a pressure in the extremes. Units: Pa. */
     void
@@ -38,16 +36,9 @@ namespace CaissonMPM
     void
     include_in(const double pressure, const Kernels::CellGeometry &cell);
 
-    /** Let a restart know what has been warned of. */
-    void
-    register_totals(RunTotals &totals)
-    {
-      totals.keep("has_warned_of_cavitation", has_warned);
-    }
-
     /** Take the extremes of all ranks. Collective. */
     void
-    end(const MPI_Comm communicator);
+    end();
 
     NamedNumbers
     columns() const;
@@ -60,7 +51,9 @@ namespace CaissonMPM
          std::vector<std::string> &warnings);
 
   private:
-    double                unit_weight = 0., at_rest = 0.;
+    const WaterScene      scene;
+    double                unit_weight = 0.; // of the water, N/m3
+    double                at_rest     = 0.; // margin on the mudline, Pa
     double                smallest = 0., largest = 0.; // Pa
     std::array<double, 3> lowest     = {{0., 0., 0.}}; // margin, r, z; Pa, m
     bool                  has_warned = false;

@@ -32,13 +32,6 @@ namespace CaissonMPM
     double      specific_volume = 0.; // 1 / rho, m3/kg
   };
 
-  /** The pressures that are known: at the mudline of the plug, and at an open
-   * bottom. Elsewhere that of the open water is 0. Units: Pa. */
-  struct KnownPressures
-  {
-    double plug = 0., bottom = 0.;
-  };
-
   /**
    * Owns the pressure, which a step takes over from the one before. All
    * functions are collective but where it says so.
@@ -55,7 +48,10 @@ namespace CaissonMPM
 
     /** Take the known pressures of the step before from another run. */
     void
-    begin_with(const KnownPressures &known);
+    begin_with(const KnownPressures &known)
+    {
+      known_ = known;
+    }
 
     /** Find the equations at the start of a step. @p properties [n_cells] are
      * read of the cells of this rank. */
@@ -63,7 +59,7 @@ namespace CaissonMPM
     set_up(const BackgroundGrid               &grid,
            const Mudline                      &mudline,
            const std::vector<WaterProperties> &properties,
-           const PressureSolver::OpenSides    &sides,
+           const OpenSides                    &sides,
            const BoundaryConditions           &conditions,
            const double                        dt);
 
@@ -179,7 +175,6 @@ namespace CaissonMPM
 
   private:
     using OfCorners = std::array<double, 8>; // r and z in turn
-    using Beyond    = CellPressureSolver::Beyond;
     /** What is known at the nodes, [n_nodes]. */
     struct AtNodes
     {
@@ -188,9 +183,6 @@ namespace CaissonMPM
       NodalData           volume;          // m3 per radian, 0 at the mudline
       NodalData           specific_volume; // m3/kg
     };
-    /** Find the nodes at open faces. */
-    void
-    find_known_nodes(const PressureSolver::OpenSides &open);
     /** Find the integrals over a cell whose shape has changed. */
     void
     find_integrals(const unsigned int cell, CellIntegrals &integrals);
@@ -223,7 +215,7 @@ namespace CaissonMPM
     /** Compute the right side of the equations per cell, with the known
      * pressures of the step @p before. m3/s per radian */
     void
-    compute_source(const CellPressureSolver::Known &before);
+    compute_source(const KnownPressures &before);
     /** What the solver left of each equation is small, but adds up. Shift all
      * pressures by the one value whose flow through the open faces takes the
      * sum
@@ -242,12 +234,12 @@ namespace CaissonMPM
     double
     outflow_through(const std::size_t side) const;
 
-    const BackgroundGrid     *grid    = nullptr;
-    const Mudline            *mudline = nullptr;
-    CellPressureSolver        solver_;
-    double                    step = 0., long_step = 0., scale = 1.;
-    Flow                      flow_;
-    CellPressureSolver::Known known_ = {};
+    const BackgroundGrid *grid    = nullptr;
+    const Mudline        *mudline = nullptr;
+    CellPressureSolver    solver_;
+    double                step = 0., long_step = 0., scale = 1.;
+    Flow                  flow_;
+    KnownPressures        known_;
     // [n_cells]: the shape for which there are the integrals, int div N_j, the
     // same less the faces of the body, int N_j, the volume
     std::vector<Kernels::CellGeometry> shapes;

@@ -91,13 +91,6 @@ namespace CaissonMPM
       return cavity_;
     }
 
-    /** The volume by which the surface of the plug has risen. Units: m3. */
-    double
-    risen() const
-    {
-      return risen_;
-    }
-
     /** By how much the compartment has grown. Units: m3. */
     double
     growth() const

@@ -10,17 +10,23 @@
 #define caisson_mpm_water_seepage_h
 
 #include <caisson_mpm/water/cell_integrals.h>
+#include <caisson_mpm/water/kept_multigrid.h>
+#include <caisson_mpm/water/mudline.h>
 
+#include <deal.II/lac/affine_constraints.h>
+
+#include <array>
 #include <vector>
 
 namespace CaissonMPM
 {
   /**
-   * Finds phi on the nodes of the grid. A cell that the mudline cuts is
-   * replaced by its lower part: its vertical conductance is divided by the
-   * filled share and its radial one multiplied with it. The solution then
-   * changes continuously when the mudline moves through the mesh. All functions
-   * are collective.
+   * Finds phi on the nodes of the grid, with FE_Q(1), conjugate gradients and
+   * algebraic multigrid. The matrix K is applied cell by cell, and assembled
+   * only to set the multigrid up. A cell that the mudline cuts is replaced by
+   * its lower part: its vertical conductance is divided by the filled share and
+   * its radial one multiplied with it. The solution then changes continuously
+   * when the mudline moves through the mesh. All functions are collective.
    */
   class Seepage
   {
@@ -35,20 +41,19 @@ namespace CaissonMPM
      * does not converge.
      */
     void
-    solve(const BackgroundGrid            &grid,
-          const Mudline                   &mudline,
-          const std::vector<Conductance>  &permeability,
-          const PressureSolver::OpenSides &sides);
+    solve(const Mudline                  &mudline,
+          const std::vector<Conductance> &permeability,
+          const OpenSides                &sides);
 
     /** The field, of all nodes that this rank knows. [n_nodes] */
-    const NodalData &
-    field() const
+    NodalData &
+    field()
     {
       return phi;
     }
 
-    NodalData &
-    field()
+    const NodalData &
+    field() const
     {
       return phi;
     }
@@ -62,51 +67,67 @@ namespace CaissonMPM
       return residual_;
     }
 
-    const PressureSolver &
-    solver() const
+    /** Return its sum over the nodes of the plug, and over open ones. m2/s */
+    std::array<double, 2>
+    sums_of_plug_and_open() const;
+
+    unsigned int
+    n_iterations() const
     {
-      return solver_;
+      return multigrid.n_iterations();
     }
 
+    /** K at the unknown nodes and the identity at all others, for SolverCG. */
+    void
+    vmult(NodalData &to, const NodalData &from) const;
+
   private:
-    PressureSolver solver_;
-    NodalData      phi, no_source, residual_; // [n_nodes]
+    /** What is known of the field at a node. */
+    enum State : int
+    {
+      no_water,
+      unknown,
+      open, // at the free surface outside, or at a drained side
+      plug  // at the mudline inside the body
+    };
+
+    State
+    state(const unsigned int node) const
+    {
+      return static_cast<State>(static_cast<int>(states.local_element(node)));
+    }
+
+    /** Find the states of the nodes, and the cells with water. */
+    void
+    find_states(const Mudline &mudline, const OpenSides &sides);
+
+    void
+    assemble();
+
+    /** to = K from, at all nodes. @p from is current at ghost nodes and hanging
+     * ones. */
+    void
+    apply(const NodalData &from, NodalData &to) const;
+
+    /** Call action(node) for the nodes of this rank whose value is known, or
+     * follows from others. */
+    template <typename Action>
+    void
+    for_each_given(const Action &action) const;
+
+    /** Find minus K p at the unknown nodes. Returns its norm. */
+    double
+    find_right_side(NodalData &p);
+
+    const BackgroundGrid             *grid = nullptr;
+    dealii::AffineConstraints<double> hanging;
+    KeptMultigrid                     multigrid;
+    std::vector<unsigned int>         cells;    // of this rank, with water
+    std::vector<CellMatrix>           matrices; // of these
+    NodalData                         states;   // of State [n_nodes]
+    NodalData         phi, residual_, right_side, correction; // [n_nodes]
+    mutable NodalData with_ghosts; // memory of vmult()
   };
-
-  /** Return the conductance of the lower part of a cell that the mudline cuts.
-   */
-  Conductance
-  of_lower_part(const Conductance &c, const double filled);
-
-  /** Return the largest conductance of the cells of all ranks. Collective. */
-  double
-  largest_conductance(const BackgroundGrid           &grid,
-                      const std::vector<Conductance> &conductance);
-
-  /** The upward hydraulic gradient at the mudline of the plug, at the wall and
-   * at the axis. */
-  struct ExitGradient
-  {
-    double wall = 0., axis = 0.;
-  };
-
-  /**
-   * Return the exit gradient of the flow @p outflow [n_nodes] out of the nodes,
-   * which is more accurate than the gradient in the cell below. The one at the
-   * radius @p wall is the value there of the even parabola i = a + b d^2 that
-   * fits the flow over the @p width beside it, with weights that fall to zero
-   * with it: no water crosses the wall, so that the gradient is even in the
-   * distance d, and single nodes, which change when the mudline crosses a row
-   * of cells, hardly matter. Units: m; those of the flow, times radian, over
-   * those of the permeability and m2. Collective.
-   */
-  ExitGradient
-  exit_gradient(const BackgroundGrid           &grid,
-                const Mudline                  &mudline,
-                const std::vector<Conductance> &permeability,
-                const NodalData                &outflow,
-                const double                    wall,
-                const double                    width);
 } // namespace CaissonMPM
 
 #endif

@@ -1,6 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Water that flows steadily under the suction beneath the lid of a caisson.
+// Water that flows steadily under the suction beneath the lid of a caisson, and
+// suction in soil that lets no water through.
+//
+// There the water presses less on the surface of the plug, by the suction s: a
+// traction that lifts the plug. With any field p that is -s on this surface and
+// 0 on the mudline outside, Gauss's theorem makes the traction a body force
+// -grad p and an isotropic stress -p. Clay whose strength depends on no mean
+// stress, and whose volume does not change, feels only the body force. So the
+// field may be chosen: it is -s in the plug, down to the tip, and harmonic
+// below, as if water seeped through soil that is far more permeable in the
+// plug. The pressure of the water in the pores of clay falls in much the same
+// way. Therefore the plug keeps its contact with the wall, and bears no
+// tension, although the suction takes its total stress.
+//
+// In layers of sand and clay the same is done for clay as long as the tip is in
+// clay: the flow in the sand does not depend on the field in the clay.
 #ifndef caisson_mpm_water_steady_seepage_h
 #define caisson_mpm_water_steady_seepage_h
 
@@ -13,7 +28,9 @@
 namespace CaissonMPM
 {
   /** The flow is steady at each time: the field is computed again when the body
-   * or the mudline has moved, and the suction scales it in every step. */
+   * or the mudline has moved, and the suction scales it in every step. Where
+   * Water/Level has no flow, the only volume that the pump takes is that of the
+   * lid and of the heave of the plug. */
   class SteadySeepage : public FlowingWater
   {
   public:
@@ -41,20 +58,12 @@ namespace CaissonMPM
     /** The name of the share of the suction at the nodes among the fields. */
     static const std::string name_of_field;
 
-  protected:
-    void
-    reinit() override;
-    std::vector<const Section *>
-    used_groups() const override;
-    /** Find how permeable the soil in the cells is. */
-    virtual void
-    find_permeability();
-    /** Let the suction reach all clay in the plug, down to the tip, before the
-     * field is found; see undrained_suction.h. */
-    void
-    spread_in_plug();
-    WaterFlow
-    flow() const override;
+    /** The numbers of a record, also of the suction in undrained water. */
+    NamedNumbers
+    present_columns() const override
+    {
+      return FlowingWater::present_columns();
+    }
 
   private:
     const NodalData &
@@ -67,6 +76,15 @@ namespace CaissonMPM
     {
       return {&seepage.field(), -suction()};
     }
+    void
+    reinit() override;
+    std::vector<const Section *>
+    used_groups() const override;
+    /** Find how permeable the soil in the cells is to the field. */
+    void
+    find_permeability();
+    WaterFlow
+    flow() const override;
     void
     prepare_columns() override;
     /** Whether the field of an earlier step still serves. Collective. */
@@ -85,8 +103,9 @@ namespace CaissonMPM
     void
     fill_clay_of_plug();
 
-    Seepage seepage;
-    double  travel_at_solve = 0.;
+    const bool flows; // according to Water/Level
+    Seepage    seepage;
+    double     travel_at_solve = 0.;
     // of plug, open and unknown nodes; m3/s over the suction in m of water
     double flow_out = 0., flow_in = 0.;
   };

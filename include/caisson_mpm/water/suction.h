@@ -7,6 +7,7 @@
 
 #include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/base/section.h>
+#include <caisson_mpm/materials/soil.h>
 
 #include <optional>
 #include <string>
@@ -80,10 +81,11 @@ namespace CaissonMPM
 
     Control                                control = Control::automatic;
     double                                 delay = 0.02, pump_delay = 0.1; // s
-    std::optional<double>                  largest;    // of the pump, Pa
-    double                                 gas = 0.;   // at p_0, m3
-    std::vector<std::pair<double, double>> table;      // s, Pa
-    std::vector<std::pair<double, double>> flow_table; // s, m3/s
+    std::optional<double>                  largest;           // of the pump, Pa
+    double                                 gas = 0.;          // at p_0, m3
+    std::vector<std::pair<double, double>> table;             // s, Pa
+    std::vector<std::pair<double, double>> flow_table;        // s, m3/s
+    double                                 largest_flow = 0.; // of it, m3/s
     double bulk_modulus = 2.2e9; // of the water beneath a sealed lid, Pa
     double leak         = 0.;    // of a sealed lid, m3/(s Pa)
 
@@ -92,8 +94,6 @@ namespace CaissonMPM
     add_entries_of_pump();
     void
     add_entries_of_water_beneath_lid();
-    void
-    fill_tables();
 
     std::string table_text, flow_text;
   };
@@ -123,14 +123,9 @@ namespace CaissonMPM
   {
   public:
     /** The settings must outlive this object. */
-    Suction(const SuctionSettings &settings, const SeaSettings &sea);
-
-    /** Set the unit weight of the water. Units: N/m3. */
-    void
-    initialize(const double unit_weight)
-    {
-      unit_weight_of_water = unit_weight;
-    }
+    Suction(const SuctionSettings &settings,
+            const SeaSettings     &sea,
+            const Soil            &soil);
 
     /** Continue the suction of another run, while this @p volume of water has
      * left the caisson. Units: m3. */
@@ -199,7 +194,7 @@ namespace CaissonMPM
 
     const SuctionSettings &settings;
     const SeaSettings     &sea;
-    double                 unit_weight_of_water = 0.; // N/m3
+    const Soil            &soil;
     double                 suction = 0., required_ = 0.;
     double                 last_volume = 0.; // m3
   };

@@ -8,14 +8,14 @@
 // carry V / V_0 through the mesh. One value in each cell does not lock. Points
 // of a cell that came from different cells differ in V / V_0, and no strain
 // would level them: they share the mean. What suction adds is
-// undrained_suction.h.
+// steady_seepage.h.
 #ifndef caisson_mpm_water_undrained_water_h
 #define caisson_mpm_water_undrained_water_h
 
 #include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/pressure_extremes.h>
+#include <caisson_mpm/water/steady_seepage.h>
 #include <caisson_mpm/water/tip_integral.h>
-#include <caisson_mpm/water/undrained_suction.h>
 
 #include <boost/signals2/connection.hpp>
 
@@ -33,8 +33,6 @@ namespace CaissonMPM
 
     void
     check_parameters() const override;
-    void
-    name_unused_entries(ParameterOrigins &origins) const override;
     void
     begin_step(const double              dt,
                const BoundaryConditions &conditions,
@@ -98,7 +96,7 @@ namespace CaissonMPM
     void
     compute_pressure();
 
-    std::unique_ptr<UndrainedSuction>  suction;    // where there is any
+    std::unique_ptr<SteadySeepage>     suction;    // where there is any
     NamedNumbers                       of_suction; // of the last record
     boost::signals2::scoped_connection connection;
     std::vector<double> pressure;  // [n_cells], Pa; empty until it is computed

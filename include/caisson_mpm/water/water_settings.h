@@ -7,11 +7,10 @@
 #include <caisson_mpm/base/section.h>
 #include <caisson_mpm/water/design_settings.h>
 #include <caisson_mpm/water/feasibility.h>
-#include <caisson_mpm/water/pressure_solver.h>
+#include <caisson_mpm/water/mudline.h>
 #include <caisson_mpm/water/suction.h>
 
 #include <string>
-#include <vector>
 
 namespace CaissonMPM
 {
@@ -43,7 +42,7 @@ namespace CaissonMPM
   /** What a coupled model needs. */
   struct CoupledSettings : public Section
   {
-    explicit CoupledSettings(PressureSolver::OpenSides &sides);
+    explicit CoupledSettings(OpenSides &sides);
 
     double      time_compression = 1.;
     std::string bottom_text      = "0";
@@ -52,7 +51,7 @@ namespace CaissonMPM
   /** Sides of the domain, for all models in which water flows. */
   struct OpenSideSettings : public Section
   {
-    explicit OpenSideSettings(PressureSolver::OpenSides &sides);
+    explicit OpenSideSettings(OpenSides &sides);
   };
 
   /**
@@ -64,26 +63,20 @@ namespace CaissonMPM
   public:
     WaterSettings();
 
-    /** Name the entries of all groups but those @p used. */
-    void
-    name_unused_groups(ParameterOrigins                   &origins,
-                       const std::vector<const Section *> &used,
-                       const std::string                  &why) const;
-
     /** Return the level as its entry has it. */
     std::string
     level_name() const;
 
-    WaterLevel                level = WaterLevel::drained;
-    PressureSolver::OpenSides sides;
-    UndrainedSettings         undrained;
-    SeepageSettings           seepage;
-    CoupledSettings           coupled;
-    OpenSideSettings          open_sides;
-    SeaSettings               sea;
-    SuctionSettings           suction;
-    FeasibilitySettings       feasibility;
-    DesignSettings            design; // of where feasibility counts
+    WaterLevel          level = WaterLevel::drained;
+    OpenSides           sides;
+    UndrainedSettings   undrained;
+    SeepageSettings     seepage;
+    CoupledSettings     coupled;
+    OpenSideSettings    open_sides;
+    SeaSettings         sea;
+    SuctionSettings     suction;
+    FeasibilitySettings feasibility;
+    DesignSettings      design; // of where feasibility counts
   };
 } // namespace CaissonMPM
 

@@ -26,6 +26,7 @@ class CaissonMpm(CMakePackage):
     depends_on("boost+program_options")
     depends_on("dealii@9.4.1:+mpi+p4est+hdf5+muparser+trilinos")
     depends_on("mpi")
+    depends_on("nlohmann-json")
 
     with when("+python"):
         depends_on("python@3.11:", type="run")

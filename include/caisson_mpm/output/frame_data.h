@@ -22,41 +22,36 @@
 // An array is called as the quantity and its unit, as the columns of
 // history.csv are: stress_zz_Pa. The files have no other place for units that
 // ParaView shows.
-#ifndef caisson_mpm_output_frame_text_h
-#define caisson_mpm_output_frame_text_h
+#ifndef caisson_mpm_output_frame_data_h
+#define caisson_mpm_output_frame_data_h
 
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/output/vtu_file.h>
 
 #include <string>
 
 namespace CaissonMPM
 {
-  /**
-   * Makes the text of files of the format VTU, of what this rank owns. It only
-   * refers to the parts; the vertices of the grid must have been written. Not
-   * collective.
-   */
-  class FrameText
+  /** Makes the pieces of the files of what this rank owns. It only refers to
+   * the parts. Not collective. */
+  class FrameData
   {
   public:
-    /** @p time is written into the files. Units: s. */
-    FrameText(const BackgroundGrid &grid,
+    FrameData(const BackgroundGrid &grid,
               const MaterialPoints &points,
               const Soil           &soil,
-              const bool            with_pore_pressure,
-              const double          time)
+              const bool            with_pore_pressure)
       : grid(grid)
       , points(points)
       , soil(soil)
       , with_pore_pressure(with_pore_pressure)
-      , time(time)
     {}
 
     /** Return the material points of this rank from number begin to end. */
-    std::string
+    VtuPiece
     of_points(const unsigned long long begin,
               const unsigned long long end) const;
 
@@ -66,12 +61,13 @@ namespace CaissonMPM
      * by volume. A mean is not a number where no point has it: in the body
      * and above the soil. The layer is that of most points.
      */
-    std::string
+    VtuPiece
     of_cells() const;
 
-    /** Return the section of the body where it is now, as cells, on any rank
-     * all of it; nothing where there is no body. */
-    std::string
+    /** Return the section of the body where it is now, as the cells of the mesh
+     * in it, which follow its surface exactly; on any rank all of it, nothing
+     * where there is no body. */
+    VtuPiece
     of_body(const RigidBody &body) const;
 
   private:
@@ -79,7 +75,6 @@ namespace CaissonMPM
     const MaterialPoints &points;
     const Soil           &soil;
     const bool            with_pore_pressure;
-    const double          time;
   };
 } // namespace CaissonMPM
 

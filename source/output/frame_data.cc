@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/output/frame_text.h>
+#include <caisson_mpm/kernels/user_point.h>
+#include <caisson_mpm/output/frame_data.h>
 #include <caisson_mpm/output/point_quantities.h>
-#include <caisson_mpm/output/vtu_piece.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,8 @@ namespace CaissonMPM
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+    using Values = std::function<double(const MaterialPoint &)>;
+
     /**
      * The void ratio of points, or unknown; of the soil itself, without the gap
      * of a point that has been torn apart. Points that the wall and the tip
@@ -27,16 +29,10 @@ namespace CaissonMPM
      * part of the soil: e would be below 0, or so high that the grains could
      * not touch. Soil without pores at the start has no void ratio.
      */
-    class VoidRatio
+    Values
+    void_ratio(const Soil &soil)
     {
-    public:
-      VoidRatio(const Soil &soil)
-        : materials(soil.kernel_materials())
-      {}
-
-      double
-      operator()(const MaterialPoint &p) const
-      {
+      return [materials = soil.kernel_materials()](const MaterialPoint &p) {
         constexpr double         largest_volume_ratio = 2.;
         const Kernels::Material &material             = materials[p.material];
         const double             initial = material.initial_void_ratio,
@@ -45,23 +41,14 @@ namespace CaissonMPM
           initial > 0. && now >= 0. &&
           p.volume <= largest_volume_ratio * p.initial_volume;
         return is_known ? void_ratio_of_soil(material, p.stress, now) : unknown;
-      }
-
-    private:
-      std::vector<Kernels::Material> materials;
-    };
+      };
+    }
 
     /** The yield stress of points (Pa), unknown where their law has none. */
-    class YieldStress
+    Values
+    yield_stress(const std::vector<Kernels::Material> &materials)
     {
-    public:
-      YieldStress(const std::vector<Kernels::Material> &materials)
-        : materials(materials)
-      {}
-
-      double
-      operator()(const MaterialPoint &p) const
-      {
+      return [materials](const MaterialPoint &p) {
         const Kernels::Material &material = materials[p.material];
         return has_yield_stress(material) ?
                  yield_stress_of(material,
@@ -69,11 +56,8 @@ namespace CaissonMPM
                                  p.void_ratio(material.initial_void_ratio),
                                  p.state) :
                  unknown;
-      }
-
-    private:
-      std::vector<Kernels::Material> materials;
-    };
+      };
+    }
 
     bool
     is_pore_pressure(const PointField &field)
@@ -174,7 +158,8 @@ namespace CaissonMPM
       std::vector<FrameField> fields;
       const auto              materials = soil.kernel_materials();
       if (std::any_of(materials.begin(), materials.end(), has_yield_stress))
-        fields.push_back({"yield_stress_Pa", 1, {{0, YieldStress(materials)}}});
+        fields.push_back(
+          {"yield_stress_Pa", 1, {{0, yield_stress(materials)}}});
       const unsigned int n_state = soil.n_user_state(),
                          first   = Kernels::UserState::variables;
       for (unsigned int i = first; i < n_state; ++i)
@@ -196,7 +181,7 @@ namespace CaissonMPM
       });
       const Values at_rest = vertical_stress_at_rest(soil);
       const std::pair<std::string, Values> more[] = {
-        {"void_ratio", VoidRatio(soil)},
+        {"void_ratio", void_ratio(soil)},
         {"whole_volume_m3",
          [=](const MaterialPoint &p) { return circumference * p.volume; }},
         {name_of_vertical_stress, vertical_stress},
@@ -212,196 +197,53 @@ namespace CaissonMPM
       return fields;
     }
 
-    /** A mean over the points of each cell, by volume. */
-    class CellMean
+    /** The means of a quantity over the points of each cell that know it, by
+     * volume. [n_cells] */
+    std::vector<double>
+    means_in_cells(const MaterialPoints &points,
+                   const unsigned int    n_cells,
+                   const Values         &quantity)
     {
-    public:
-      CellMean(const Values &quantity, const unsigned int n_cells)
-        : quantity(quantity)
-        , sum(n_cells)
-        , volume(n_cells)
-      {}
-
-      /** Add a point, unless it does not know the quantity. */
-      void
-      add(const MaterialPoint &p, const unsigned int cell)
-      {
+      std::vector<double> mean(n_cells, 0.), volume(n_cells, 0.);
+      points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
         const double value = quantity(p);
         if (std::isnan(value))
           return;
-        sum[cell] += p.volume * value;
+        mean[cell] += p.volume * value;
         volume[cell] += p.volume;
-      }
+      });
+      for (unsigned int cell = 0; cell < n_cells; ++cell)
+        mean[cell] = volume[cell] > 0. ? mean[cell] / volume[cell] : unknown;
+      return mean;
+    }
 
-      double
-      operator[](const unsigned int cell) const
-      {
-        return volume[cell] > 0. ? sum[cell] / volume[cell] : unknown;
-      }
-
-    private:
-      Values              quantity;
-      std::vector<double> sum, volume;
-    };
-
-    /** The cells of this rank with their data; the vertices must have been
-     * written. */
-    class CellFields
+    /** The cells of this rank, without data. */
+    VtuPiece
+    mesh_of(const BackgroundGrid &grid)
     {
-    public:
-      CellFields(const BackgroundGrid &grid,
-                 const Soil           &soil,
-                 const bool            with_pore_pressure)
-        : grid(grid)
-        , fields(fields_of([&](const PointField &field) {
-          return std::string(field.owner) == "stress" ||
-                 (with_pore_pressure && is_pore_pressure(field));
-        }))
-        , n_points(grid.n_cells(), 0)
-        , at_rest(vertical_stress_at_rest(soil), grid.n_cells())
-        , layers(layer(soil), grid.n_cells())
-      {
-        fields.push_back({"void_ratio", 1, {{0, VoidRatio(soil)}}});
-        fields.push_back({name_of_vertical_stress, 1, {{0, vertical_stress}}});
-        for (const FrameField &field : fields)
-          for (const auto &part : field.parts)
-            means.emplace_back(part.second, grid.n_cells());
-      }
-
-      void
-      add(const MaterialPoints &points)
-      {
-        points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
-          ++n_points[cell];
-          for (CellMean &mean : means)
-            mean.add(p, cell);
-          at_rest.add(p, cell);
-          layers.add(p, cell);
-        });
-      }
-
-      VtuPiece
-      piece() const
-      {
-        VtuPiece result;
-        add_cells(result);
-        add_arrays(result);
-        return result;
-      }
-
-    private:
-      void
-      add_cells(VtuPiece &piece) const
-      {
-        std::map<unsigned int, unsigned int> numbers; // of the vertices
-        for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      VtuPiece                             piece;
+      std::map<unsigned int, unsigned int> numbers; // of the vertices
+      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+        if (grid.is_owned(cell))
           {
-            if (!grid.is_owned(cell))
-              continue;
             const auto               &iterator = grid.cell_iterator(cell);
             std::vector<unsigned int> corners;
             for (unsigned int i = 0; i < 4; ++i)
               {
-                const auto found = numbers.find(iterator->vertex_index(i));
-                corners.push_back(found != numbers.end() ?
-                                    found->second :
-                                    piece.add_point(iterator->vertex(i)));
-                numbers[iterator->vertex_index(i)] = corners.back();
+                const auto [found, is_new] =
+                  numbers.try_emplace(iterator->vertex_index(i));
+                if (is_new)
+                  found->second = piece.add_point(iterator->vertex(i));
+                corners.push_back(found->second);
               }
             piece.add_cell(corners);
           }
-      }
-
-      void
-      add_arrays(VtuPiece &piece) const
-      {
-        const auto add = [&](const std::string &name, const auto &value) {
-          piece.of_cells.push_back({name, 1, {}});
-          for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-            if (grid.is_owned(cell))
-              piece.of_cells.back().values.push_back(value(cell));
-        };
-        add("material_id", [&](const unsigned int cell) {
-          return grid.is_rigid(cell) ? 1. : 0.;
-        });
-        add("zone", [&](const unsigned int cell) {
-          return static_cast<unsigned int>(grid.zone(cell));
-        });
-        add("material_points",
-            [&](const unsigned int cell) { return n_points[cell]; });
-        add_means(piece);
-        const CellMean &stress = means.back();
-        add(name_of_ratio, [&](const unsigned int cell) {
-          return stress[cell] / at_rest[cell];
-        });
-        add("layer",
-            [&](const unsigned int cell) { return std::round(layers[cell]); });
-      }
-
-      void
-      add_means(VtuPiece &piece) const
-      {
-        auto mean = means.begin();
-        for (const FrameField &field : fields)
-          {
-            const unsigned int n = field.n_components;
-            piece.of_cells.push_back(
-              {field.name, n, std::vector<float>(n * piece.n_cells(), 0.f)});
-            for (const auto &part : field.parts)
-              {
-                float *value = &piece.of_cells.back().values[part.first];
-                for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
-                  if (grid.is_owned(cell))
-                    {
-                      *value = (*mean)[cell];
-                      value += n;
-                    }
-                ++mean;
-              }
-          }
-      }
-
-      const BackgroundGrid     &grid;
-      std::vector<FrameField>   fields;
-      std::vector<CellMean>     means; // of the parts of the fields
-      std::vector<unsigned int> n_points;
-      CellMean                  at_rest, layers;
-    };
-
-    /** The section of the body: the cells of the mesh in it, which follow its
-     * surface exactly. All ranks know the lines of the whole mesh, and thus all
-     * of the body. */
-    VtuPiece
-    section_of(const GridLines &lines, const RigidBody &body)
-    {
-      const double travel = body.motion().travel();
-      VtuPiece     piece;
-      for (unsigned int i = 0; i < lines.n_cells(); ++i)
-        {
-          if (!lines.is_body_cell(GlobalCell(i)))
-            continue;
-          const CellBlock           cell = lines.tree().block(GlobalCell(i));
-          std::vector<unsigned int> corners;
-          for (unsigned int corner = 0; corner < 4; ++corner)
-            {
-              const unsigned int column = cell.column + corner % 2 * cell.size,
-                                 row    = cell.row + corner / 2 * cell.size;
-              corners.push_back(
-                piece.add_point(lines.node_start(column, row) +
-                                travel * lines.node_rate(column, row)));
-            }
-          piece.add_cell(corners);
-        }
-      piece.of_cells.push_back(
-        {"penetration_m",
-         1,
-         std::vector<float>(piece.n_cells(), body.penetration())});
       return piece;
     }
   } // namespace
 
-  std::string
-  FrameText::of_points(const unsigned long long begin,
+  VtuPiece
+  FrameData::of_points(const unsigned long long begin,
                        const unsigned long long end) const
   {
     const auto fields =
@@ -427,21 +269,95 @@ namespace CaissonMPM
         }
       ++i;
     });
-    return piece.text(time);
+    return piece;
   }
 
-  std::string
-  FrameText::of_cells() const
+  VtuPiece
+  FrameData::of_cells() const
   {
-    CellFields cells(grid, soil, with_pore_pressure);
-    cells.add(points);
-    return cells.piece().text(time);
+    VtuPiece   piece     = mesh_of(grid);
+    const auto add_array = [&](const std::string &name, const unsigned int n) {
+      piece.of_cells.push_back(
+        {name, n, std::vector<float>(n * piece.n_cells(), 0.f)});
+    };
+    // one component of the last array
+    const auto fill = [&](const auto &value, const unsigned int place = 0) {
+      auto        &array = piece.of_cells.back();
+      unsigned int i     = place;
+      for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+        if (grid.is_owned(cell))
+          {
+            array.values[i] = value(cell);
+            i += array.n_components;
+          }
+    };
+    const auto means = [&](const Values &quantity) {
+      return [mean = means_in_cells(points, grid.n_cells(), quantity)](
+               const unsigned int cell) { return mean[cell]; };
+    };
+
+    add_array("material_id", 1);
+    fill([&](const unsigned int cell) { return grid.is_rigid(cell); });
+    add_array("zone", 1);
+    fill([&](const unsigned int cell) {
+      return static_cast<unsigned int>(grid.zone(cell));
+    });
+    std::vector<unsigned int> n_points(grid.n_cells(), 0);
+    points.for_each([&](const MaterialPoint &, const unsigned int cell) {
+      ++n_points[cell];
+    });
+    add_array("material_points", 1);
+    fill([&](const unsigned int cell) { return n_points[cell]; });
+
+    auto fields = fields_of([&](const PointField &field) {
+      return std::string(field.owner) == "stress" ||
+             (with_pore_pressure && is_pore_pressure(field));
+    });
+    fields.push_back({"void_ratio", 1, {{0, void_ratio(soil)}}});
+    fields.push_back({name_of_vertical_stress, 1, {{0, vertical_stress}}});
+    for (const FrameField &field : fields)
+      {
+        add_array(field.name, field.n_components);
+        for (const auto &[place, value] : field.parts)
+          fill(means(value), place);
+      }
+    add_array(name_of_ratio, 1);
+    const auto now     = means(vertical_stress),
+               at_rest = means(vertical_stress_at_rest(soil));
+    fill([&](const unsigned int cell) { return now(cell) / at_rest(cell); });
+    add_array("layer", 1);
+    fill([mean = means(layer(soil))](const unsigned int cell) {
+      return std::round(mean(cell));
+    });
+    return piece;
   }
 
-  std::string
-  FrameText::of_body(const RigidBody &body) const
+  VtuPiece
+  FrameData::of_body(const RigidBody &body) const
   {
-    const VtuPiece section = section_of(grid.lines(), body);
-    return section.n_cells() == 0 ? "" : section.text(time);
+    const GridLines &lines  = grid.lines();
+    const double     travel = body.motion().travel();
+    VtuPiece         piece;
+    for (unsigned int i = 0; i < lines.n_cells(); ++i)
+      {
+        if (!lines.is_body_cell(GlobalCell(i)))
+          continue;
+        const CellBlock           cell = lines.tree().block(GlobalCell(i));
+        std::vector<unsigned int> corners;
+        for (unsigned int corner = 0; corner < 4; ++corner)
+          {
+            const unsigned int column = cell.column + corner % 2 * cell.size,
+                               row    = cell.row + corner / 2 * cell.size;
+            corners.push_back(
+              piece.add_point(lines.node_start(column, row) +
+                              travel * lines.node_rate(column, row)));
+          }
+        piece.add_cell(corners);
+      }
+    piece.of_cells.push_back(
+      {"penetration_m",
+       1,
+       std::vector<float>(piece.n_cells(), body.penetration())});
+    return piece;
   }
 } // namespace CaissonMPM
