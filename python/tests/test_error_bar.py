@@ -264,9 +264,11 @@ class Plan(unittest.TestCase):
         """Meshes with two cells across the wall and more; with one where the budget
         allows no second one else, and then rather three meshes than many windows."""
         plan = command.Plan.__new__(command.Plan)
-        plan.size, plan.entries = Size(1000, 100.0, 100.0), Windows.THIN
+        plan.size, plan.entries = Size(1000, 100.0, 100.0), dict(Windows.THIN)
         meshes = {1: [0.5, 1.0, 2.0], 2: [1.0, 2.0]}
-        plan.meshes = meshes.__getitem__  # type: ignore[method-assign]
+        known = unittest.mock.patch.object(plan, "meshes", meshes.__getitem__)
+        known.start()
+        self.addCleanup(known.stop)
         for budget, chosen, number in (
             (200.0, [1.0, 2.0], 4),
             (70.0, [1.0, 2.0], 1),
