@@ -27,7 +27,7 @@ Commands = Mapping[str, tuple[str, str]]
 
 
 def options_of(command: str, commands: Commands) -> dict[str, list[str]]:
-    """Return the options of a command with choices, and of `run` the program's."""
+    """Return the options of a command with their choices; of `run` all."""
     module = importlib.import_module(commands[command][0])
     parser = argparse.ArgumentParser(prog=f"caisson {command}")
     module.add_arguments(parser)

@@ -172,7 +172,7 @@ def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.n
 
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
-    """Return the scatter of a force as a share of its running mean, from FROM on."""
+    """Return the scatter of a force about its running mean over that (share of 1)."""
     mean = running_mean(position, force, FORCE_WINDOW)
     used = (position >= FROM) & np.isfinite(mean)
     if not used.any():

@@ -227,7 +227,7 @@ def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
 
 
 def value_at(text: str, depth: float, stress: float) -> float | None:
-    """Return the value of an expression at depth (m) and stress (Pa), or None."""
+    """Return an expression at a depth (m) and a stress (Pa); None of another form."""
     try:
         names = {"d": depth, "s": stress, "p": stress, "pi": math.pi}
         functions = {

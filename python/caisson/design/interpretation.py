@@ -29,7 +29,7 @@ KINDS = (SAND, SILT, CLAY)
 
 @dataclass(frozen=True)
 class Interpretation:
-    """A test with ground, correlations, layers; weight: source of the unit weight."""
+    """A test with ground, correlations, layers; weight: whence the unit weight is."""
 
     file: Path
     test: Test
@@ -150,7 +150,7 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
 
 
 def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ...]]:
-    """Return the net area ratio that counts, and its source in words."""
+    """Return the net area ratio that counts, and in words whence it is."""
     of_file = test.area_ratio
     if given is not None or of_file is None or test.pore_pressure is None:
         return AREA_RATIO if given is None else given, ()

@@ -25,7 +25,7 @@ def text_of(value: float) -> str:
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:
-    """Return computed over method in words; an end without an answer is open."""
+    """Return computed over method, upper to lower case, or an open end."""
     if not computed > 0:
         return ""
     least = computed / high if math.isfinite(high) and high > 0 else None

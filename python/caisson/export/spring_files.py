@@ -68,7 +68,7 @@ def about_parts(found: Springs) -> str:
 
 
 def about_waves(found: Springs) -> list[str]:
-    """Return a warning where waves have not gone far enough, or that is not known."""
+    """Return a warning where waves have not gone far enough, or may have not."""
     reach, needed = found.reach_at_first, found.needed_reach
     first = 1e3 * SMALL[0] * found.diameter
     if reach >= needed or first > 1e3 * found.displacement[-1]:

@@ -134,7 +134,7 @@ class Springs:
 
 
 def last_motion(penetration: np.ndarray) -> tuple[int, int]:
-    """Return row and direction (1 or -1) of the last motion. Raises ResultsError."""
+    """Return row and direction (1 down, -1 up) of the last motion, or raise."""
     steps = np.diff(penetration)
     moved = np.flatnonzero(abs(steps) > SAME)
     if not len(moved):

@@ -390,7 +390,7 @@ def tip_box(frame: Frame, window: Window, scene: dict[str, Any]) -> Box | None:
 def draw_displacement(
     path: Path, frame: Frame, window: Window, scene: dict[str, Any]
 ) -> Path:
-    """Draw the displacement, and at the tip the plastic strain, too."""
+    """Draw the displacement, and with plastic strain that at the tip."""
     soil, box = frame.soil, tip_box(frame, window, scene)
     moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
     fields = [("displacement (m)", moved, "viridis")]

@@ -215,8 +215,8 @@ def lid_depth(depth: np.ndarray, room: np.ndarray) -> float | None:
 
 
 def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the limits of the suction (kPa) [n], each by its factor, nan or infinite
-    for none; that of the lid is 0 from where the plug meets it."""
+    """Return the limits of the suction (kPa) [n] by their factors, nan or infinite for
+    none; that of the lid is 0 from where the plug meets it."""
     numbers = at_depths(run, at)
     if not (factors := factors_of(run)):
         return {}

@@ -166,7 +166,7 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run that ended early is good for; nothing of others."""
+    """Return what a run is good for that ended early, else nothing."""
     depth = run.history.get("penetration_m")
     if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""

@@ -377,7 +377,7 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
 def layers_of(
     texts: Iterable[str], known: Mapping[str, str], law: str, change: Change = as_given
 ) -> list[Layer]:
-    """Return all layers; change: made to each before. Raises SuggestError."""
+    """Return all layers; change: of what is given, before. Raises SuggestError."""
     layers = [layer_of(text, known, law, change) for text in texts]
     tops = [layer.top for layer in layers]
     if tops[:1] != [0.0]:
