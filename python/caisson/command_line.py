@@ -82,8 +82,9 @@ def run_command(
     late: Collection[str] = (),
     elsewhere: str = "",
 ) -> int:
-    """Run one subcommand; return its exit status. late: those that compute before they
-    import; elsewhere: where other commands are."""
+    """Run one subcommand; return its exit status. late: those that import what they
+    need only after they have computed or read something; elsewhere: where other
+    commands are, for who asks for one of them."""
     commands = commands_of(groups)
     if argv and argv[0] not in commands and not argv[0].startswith("-"):
         near = difflib.get_close_matches(argv[0], commands, n=1)

@@ -126,8 +126,9 @@ def way_up(position: np.ndarray) -> np.ndarray:
 
 
 def main_way(position: np.ndarray) -> np.ndarray:
-    """Return the rows of the way down, or of the way up where that is ten times as
-    long, without the row where it begins, over which there is no mean."""
+    """Return the numbers of the rows of the way down, or of the way up where that is
+    ten times as long, as of a body that is pulled; without the row where it begins,
+    over which there is no mean."""
     down, up = (way[1:] for way in (way_down(position), way_up(position)))
     fall, rise = position.max() - position[0], position.max() - position[-1]
     return up if 10 * fall <= rise and rise > 0 else down
@@ -181,9 +182,10 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
 
 
 def largest_energy_ratio(history: Table) -> float:
-    """Return the largest kinetic energy over the external work from FROM on (a share of
-    1), of a body that is pulled out in rows with a pull and at least a tenth of the
-    largest work: the soil springs up when the load on it goes."""
+    """Return the largest kinetic energy over the external work, whatever its sign, from
+    FROM on (a share of 1). Of a body that is pulled out it is that of the rows with a
+    pull, and at least a tenth of the largest work: the soil springs up when the load on
+    it goes."""
     depth = history["penetration_m"]
     work = np.abs(history["external_work_J"] + history.get("water_work_J", 0.0))
     used = (depth >= FROM) & (work > 0)

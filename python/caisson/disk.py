@@ -136,8 +136,9 @@ def save_pages(figures: Iterable[Any], path: Path) -> Path:
 
 @contextlib.contextmanager
 def all_or_none(overwrite: bool) -> Iterator[None]:
-    """Let write() wait for the end of the block, and write all files then, or none
-    where it fails or one of them would be overwritten unasked. Raises InputError."""
+    """Let write() wait for the end of the block, and then write all files: none where
+    the block fails, or where one of them is there with another content and not to be
+    overwritten. Raises InputError."""
     global _waiting
     if _waiting is not None:  # within another one, which decides
         yield

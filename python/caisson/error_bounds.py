@@ -72,8 +72,9 @@ def beside(scene: Path) -> Path:
 
 
 def adopt(directory: Path, bar: Path | None = None) -> None:
-    """Keep an error bar with a run, and write its bounds: this one, that beside its
-    scene, or the one kept. Raises ResultsError where this one cannot be used."""
+    """Keep an error bar with a run, and write its bounds: this one, or that beside its
+    scene if it is for this run, or the one kept before. Raises ResultsError where the
+    given one cannot be used."""
     run = Results(directory)
     if not (run.scene and (directory / "history.csv").is_file()):
         return

@@ -52,7 +52,8 @@ class Way(NamedTuple):
 
 def multiples_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
     """Return the multiples of the interval (m) that a growing curve passes after its
-    start, or the rounder ones of curves.round_depths() of a short one."""
+    start, or the rounder ones of curves.round_depths() where it is shorter than two of
+    them."""
     if np.ptp(position) < 2 * interval:
         return curves.round_depths(position)
     found = curves.common_depths([position], interval)
@@ -96,8 +97,9 @@ def way_down(run: Results) -> Way:
 
 
 def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
-    """Return the numbers of the way down at depths (m), or each half meter, with the
-    bounds of an error bar: columns [n]; empty without a way down."""
+    """Return the numbers of the way down at depths (m), or at each half meter and at
+    the end, with the bounds of those that have an error bar: columns [n]; empty without
+    a way down."""
     if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
         return {}
     at = depths_of(way.depth) if at is None else at
@@ -112,8 +114,9 @@ def rows_of(table: Table) -> list[dict[str, float]]:
 
 
 def changes_of_suction(history: Table) -> list[float]:
-    """Return the penetrations (m) from which on suction acts, acts no longer, and so
-    on, without changes for a short way but at the end."""
+    """Return the penetrations (m) from which on suction acts, acts no longer, acts
+    again, and so on. A change for a short way does not count, but for one at the end.
+    """
     depth, acts = history[DEPTH], history["suction_Pa"] > 0
     least, starts = LEAST_HELD * np.ptp(depth), np.flatnonzero(np.diff(acts)) + 1
     for first, end in zip([0, *starts], [*starts, len(depth)]):

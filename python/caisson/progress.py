@@ -50,8 +50,9 @@ class Progress:
         stream: TextIO | None = None,
         share_of: Callable[[int], float] = lambda _: 0.0,
     ):
-        """durations: of the runs (s), 0 for the mean of the others; stream: of the bar;
-        share_of: what part of a run is done, as far as it says so."""
+        """durations: of the runs (s); those of 0 are not known and count as the mean of
+        the others. stream: of the bar, default: the errors of this process. share_of:
+        what part of a run is done, as far as that run says it, else 0."""
         known = [x for x in durations if x > 0] or [1.0]
         mean = sum(known) / len(known)
         self.expected = [x if x > 0 else mean for x in durations]

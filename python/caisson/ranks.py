@@ -129,8 +129,11 @@ def time_of(seconds: Sequence[float], at_a_time: int) -> float:
 
 
 def plan(sizes: Sequence[Size], most: int) -> Plan:
-    """Return the fastest plan for runs, the longest first, on so many cores. Several
-    ranks pay only for the last runs, which are fewer than the cores."""
+    """Return the fastest plan for runs, the longest first, on so many cores.
+
+    Runs side by side waste nothing, so that several ranks pay only for the last runs,
+    which are fewer than the cores.
+    """
     n, seconds = len(sizes), [size.seconds for size in sizes]
     best = Plan(n, n, most, 1, time_of(seconds, most))
     most_last = min(n, most) if can_start_ranks() else 0

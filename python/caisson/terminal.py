@@ -7,8 +7,9 @@ CLEAR = "\r\x1b[K"  # goes back to the beginning of the line, and clears it
 
 
 def printable(text: str) -> str:
-    """Return a text of a file for a terminal, a picture or a page: commands of a
-    terminal become \\x1b, other blanks spaces, and tabs stay."""
+    """Return a text of a file as it may reach a terminal, a picture or a page: what no
+    printer prints, such as the escape that begins a command of a terminal, becomes
+    \\x1b; other blanks become spaces, and tabs stay."""
     if text.isprintable():
         return text
     letters = (" " if unicodedata.category(c) == "Zs" else c for c in text)

@@ -89,8 +89,9 @@ def choose_ranks(arguments: list[str]) -> int:
 def options_for_error(
     options: argparse.Namespace, directory: Path
 ) -> tuple[list[str], Path]:
-    """Return the options of the program for the error that is wanted, and its error
-    bar. Raises RunError, StudyError and ArgumentTypeError."""
+    """Return the options of the program with which the scene has the error that is
+    wanted, and its error bar. The runs for it go beside the output directory. Raises
+    RunError, StudyError and ArgumentTypeError."""
     from caisson.error import wanted
     from caisson.error.command import seconds_of
 
@@ -108,8 +109,9 @@ def options_for_error(
 
 
 def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
-    """Draw the pictures and write the report. error_bar: None for that beside the
-    scene; in_full: say all of it, and not only where the report is."""
+    """Draw the pictures, write the report and say whether it works; the results do not
+    need them. error_bar: of the run, None for that beside the scene; in_full: say all
+    of it, and not only where the report is."""
     from caisson import error_bounds, plot, report
     from caisson.report import band, verdict
     from caisson.results import Results
@@ -174,9 +176,12 @@ def run_alone(command: list[str]) -> int:
 
 
 def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
-    """Run the program on several ranks; return its exit status. mpirun would end ranks
-    before they have written their checkpoint: the first signal makes the file that
-    stops a run in order, and the second one is handed on."""
+    """Run the program on several ranks; return its exit status.
+
+    mpirun ends ranks a few seconds after a signal, whether or not they have written
+    their checkpoint. So no signal of the terminal reaches it: the first one makes the
+    file that stops a run in order, and the second one is handed on.
+    """
     process = subprocess.Popen(
         command, env=environment(), stdin=subprocess.DEVNULL, start_new_session=True
     )

@@ -77,8 +77,9 @@ class SandGround:
         )
 
     def angle_at(self, z: float) -> float:
-        """Return the peak friction angle by Bolton under a tip, of a layer with a known
-        density; the stress counts as 150 kPa and more (Bolton 1987)."""
+        """Return the peak friction angle by Bolton under a tip; of a layer with a known
+        density. Below 150 kPa the stress has no more influence (Bolton 1987), as in the
+        law by density and stress."""
         under_tip = np.sqrt(self.resistance_at(z) * self.stress_at(z))
         under_tip = max(under_tip, LEAST_OF_STRENGTH)
         critical = self.layer_at(z).friction_angle

@@ -135,8 +135,9 @@ def read(path: Path) -> Profile:
 
 
 def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
-    """Keep a test with a run as it is, or as a table with heads. Return in words what
-    was made of it. Raises InputError where it cannot be read."""
+    """Keep a test in the directory of a run, where pictures and report find it: as it
+    is, or as a table if it is none with heads. how: what options say of the file.
+    Return in words what was made of it. Raises InputError where it cannot be read."""
     test = cone_file.read(path, with_friction=False, how=how)
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")

@@ -82,8 +82,9 @@ def place_of(text: str) -> int:
 
 
 def decimal_of(parts: Sequence[str]) -> tuple[float, str]:
-    """Return the number that begins a value, perhaps with a decimal comma at which it
-    was divided, and what comes next. Raises ValueError or IndexError."""
+    """Return the number at the beginning of a value that was divided at its commas, one
+    of which may be a decimal comma, and what comes next. Raises ValueError or
+    IndexError."""
     has_comma = len(parts) > 1 and re.fullmatch(r"[+-]?\d+", parts[0])
     if has_comma and re.fullmatch(r"\d+([eE][+-]?\d+)?", parts[1]):
         return float(f"{parts[0]}.{parts[1]}"), "".join(parts[2:3])

@@ -36,8 +36,9 @@ BAND = 3.0  # times the median of Q_tn of a layer, or less than the median over 
 
 @dataclass(frozen=True)
 class Layer:
-    """Soil from top to bottom (m) of a kind, given or not, and its rows [n_rows of the
-    test]; lenses: top, bottom and kind of others; bands: "hard" and "soft" soil."""
+    """Soil from top to bottom (m) with its kind, and whether this is given; the rows of
+    the test that count [n_rows of the test]; lenses: top, bottom and kind of other soil
+    in it; bands: the same of "hard" and "soft" soil of its own kind."""
 
     top: float
     bottom: float
@@ -139,8 +140,9 @@ def bands_of(ground: Ground, rows: np.ndarray) -> list[tuple[float, float, str]]
 
 
 def layers_of(ground: Ground, tops: list[float], given: np.ndarray) -> list[Layer]:
-    """Return the layers with these tops. given: kinds of rows [n], "" for that by the
-    test. Raises ValueError where a layer has no row or no kind."""
+    """Return the layers with these tops. given: the kind of soil of each row [n] that
+    is not to be judged by the test, else "". Raises ValueError where a layer has no row
+    or no kind."""
     kinds = np.where(given != "", given, ground.kinds)
     bottoms = [*tops[1:], float(ground.depth[-1])]
     found = []

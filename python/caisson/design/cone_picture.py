@@ -32,8 +32,9 @@ WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides the
 
 
 class Panel(NamedTuple):
-    """A panel: title, profile [n], estimate ("" for none) and scale; growth [n]: factor
-    on a modulus at 100 kPa."""
+    """A panel: title, profile [n] in the unit of the title, and the estimate to be
+    drawn with its scale, "" for none. growth: what a modulus at 100 kPa is multiplied
+    with at each depth [n], where a layer has one."""
 
     title: str
     profile: np.ndarray

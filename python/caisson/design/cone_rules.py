@@ -47,8 +47,9 @@ def rows_text(rows: np.ndarray) -> str:
 
 
 class Readings:
-    """The rows of a test: number in the file, values in m and Pa (nan for none) and
-    push, [n] each; and remarks. Each rule changes or refuses them, by InputError."""
+    """The rows of a test: the number of each in the file, its values by quantity in m
+    and Pa (nan for none) and the number of its push, [n] each; and remarks on what was
+    made of them. Each rule changes or refuses them, by InputError."""
 
     def __init__(
         self,

@@ -118,8 +118,9 @@ def unit_of(path: Path, head: Head) -> float:
 def columns_of(
     path: Path, heads: Sequence[Head], rows: Rows, wanted: Sequence[str], advice: str
 ) -> dict[str, Column]:
-    """Return the columns that are wanted and there, or those that may stand for them.
-    advice: how the file would name depth and cone resistance. Raises InputError."""
+    """Return the columns of the quantities that are wanted and there. A quantity
+    without values in most rows gives way to the one that may stand for it. advice: how
+    the file would name depth and cone resistance. Raises InputError."""
     found: dict[str, Column] = {}
     for name in wanted:
         some = [h for h in heads if h.quantity == name]

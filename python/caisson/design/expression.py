@@ -175,8 +175,9 @@ def refuse_no_expression(text: str, tokens: Sequence[Token]) -> None:
 
 
 def in_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
-    """Return an expression in the unit of its entry; a last and only unit counts for
-    all. symbols: {name: expression in this unit}. Raises ValueError."""
+    """Return an expression in the unit of its entry. A unit that is the only one and
+    the last word counts for all of it. symbols: {name: expression in this unit}. Raises
+    ValueError with what is wrong."""
     if unit == "Pa":  # a unit weight is a gradient of stress
         text = re.sub(r"N/m[3³](?!\w)", "N/m2/m", text)
     tokens = tokens_of(text, symbols)

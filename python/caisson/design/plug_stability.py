@@ -87,8 +87,9 @@ def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
 def allowable(
     skirt: Skirt, layers: Sequence[Layer], depth: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) at which the plug gives way, [n] at embedments [n] (m),
-    by mechanism, nan where there is none. layers: from the mudline down."""
+    """Return the suctions (Pa) at which the plug gives way, [n] at embedments depth [n]
+    (m), nan where a mechanism is none; only those that there are. layers: from the
+    mudline down."""
     found = {
         name: np.array([of(skirt, layers, float(h)) for h in depth])
         for name, of in ((REVERSE_BEARING, reverse_bearing), (LIFT, lift))

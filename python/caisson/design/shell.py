@@ -185,7 +185,8 @@ def net_pressure(walls: Table) -> np.ndarray:
 
 def pressures_of(run: Results, wall: Wall) -> Table:
     """Return the pressure from outside along the wall at the frames of a run with
-    suction, from lid to tip, as columns [n]; empty without such frames."""
+    suction, from the lid down to the tip: columns [n], whose names have the units;
+    empty without such frames."""
     walls, history = run.walls, run.history
     if "suction_Pa" not in history or not {
         f"{side}_normal_stress_Pa" for side in SIDES

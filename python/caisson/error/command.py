@@ -97,8 +97,9 @@ def refinements(cells: int, even: bool, least: int) -> list[float]:
 def chosen_meshes(
     known: list[float], seconds: float, budget: float, changes: float
 ) -> list[float]:
-    """Return the refinements that the budget (s) allows, by the seconds of the scene.
-    changes: cost of runs with other numerics over that of the coarsest."""
+    """Return the refinements that the budget (s) allows, where a run of the scene takes
+    some seconds: a run costs the cube of its refinement; changes: the cost of those
+    with other numerics over that of the coarsest."""
     chosen = [r for r in known if r <= 1]
     left = budget - seconds * (sum(r**3 for r in chosen) + changes * min(chosen) ** 3)
     for r in (r for r in known if r > 1):
@@ -305,8 +306,9 @@ class Plan:
         return True
 
     def mesh(self, r: float) -> dict[str, Any]:
-        """Return the entries of a mesh. Cells at the tip are halved less often on a
-        coarser one, as lines of the mesh cannot be wider apart than the wall."""
+        """Return the entries of a mesh, none of that of the scene. Cells that are
+        halved at the tip are halved less often on a coarser one: lines of the mesh
+        cannot be wider apart than the wall."""
         if r == 1:
             return {}
         found: dict[str, Any] = {

@@ -103,8 +103,9 @@ class Search:
         return (self.plan.results / "error_bar.csv").resolve()
 
     def errors_by_term(self) -> dict[str, float]:
-        """Return the errors of the total force on the finest mesh that nine tenths of
-        the depths do not exceed: by term, of all, and of all but the mesh."""
+        """Return the errors of the total force on the finest mesh so far that are not
+        exceeded at nine tenths of the depths: by term, of all terms, and of all but the
+        mesh."""
         study = self.study()
         depths = error_bar.depths_of(study)
         terms = [error_bar.term_errors(t, study, depths) for t in self.errors]
@@ -137,9 +138,10 @@ def check_mesh_matters(errors: dict[str, float], wanted: float) -> None:
 def mesh_for(
     scene: Path, wanted: float, budget: float, directory: Path
 ) -> tuple[dict[str, Any], Path]:
-    """Return the entries of the mesh with the error that is wanted, and its error bar;
-    print the errors of meshes, whose runs go to the directory. Raises RunError and
-    StudyError, also where the budget (s) ends."""
+    """Return the entries of the mesh with which the error of a scene is at most the one
+    that is wanted, and its error bar. Prints the errors of the meshes, whose
+    runs go to the directory. Raises RunError and StudyError, also where the budget (s)
+    ends before."""
     search = Search(scene, budget, directory)
     reached = ""
     for r in search.plan.chosen:

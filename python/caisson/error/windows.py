@@ -159,8 +159,9 @@ class WindowedRun(Run):
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
     ) -> Status | None:
-        """Run the missing windows, or all again where none is, and write the history of
-        the means; see Run. Raises RunError where a window ends early."""
+        """Run the windows that have no result, or all of them again where none is
+        missing, and write the history of the means; see Run. Raises RunError also where
+        a window does not reach its depth."""
         again = self.is_complete()
         (self.directory / self.RECORD).unlink(missing_ok=True)
         records = []

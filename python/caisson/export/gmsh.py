@@ -71,8 +71,9 @@ def read_4(
 
 
 def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
-    """Return the mesh of a text file of Gmsh, 2.2 or 4.1, in first order, the surface
-    of each cell [m], and the names of its groups. Raises ResultsError."""
+    """Return the mesh of a text file of Gmsh, format 2.2 or 4.1, with all of its
+    triangles and quadrilaterals of first order, the surface of each [m], and the names
+    of its groups. Raises ResultsError."""
     try:
         data = disk.read_bytes(path, ResultsError)
         version = data.split(b"$MeshFormat", 1)[1].split(maxsplit=2)[:2]
@@ -150,8 +151,12 @@ def check_extent(mesh: Mesh, state: State, path: Path) -> None:
 
 
 def in_wall(mesh: Mesh, surfaces: np.ndarray, wall: Wall) -> np.ndarray:
-    """Return which cells are the wall: [m], by their centers or as part of a surface of
-    Gmsh that is mostly there, as a flat tip for one with a bevel."""
+    """Return which cells are the wall: [m].
+
+    They have their centers in it, or are of a surface of Gmsh of which more than half,
+    below the ground's surface, lies between the radii of the wall and above its tip: so
+    are the corners of a flat tip where that of the body has a bevel.
+    """
     r, z = mesh.centers.T
     found = wall.contains(mesh.centers)
     around = (r > wall.inner) & (r < wall.outer) & (z > wall.tip)

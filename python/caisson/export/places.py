@@ -56,8 +56,9 @@ def surface_at(state: State, r: np.ndarray) -> np.ndarray:
 
 
 def read_places(path: Path, state: State) -> np.ndarray:
-    """Return the points [n, 2] (m) of a table. Raises ResultsError with the line of one
-    not in the soil, or more than half a spacing above the ground."""
+    """Return the points [n, 2] (m) of a table. Raises ResultsError with the line of
+    the first one that is not in the soil; half of the usual spacing above the ground
+    counts as in it, since the surface is not known better."""
     points, numbers = read_table(path)
     r, z = points.T
     surface = surface_at(state, r)

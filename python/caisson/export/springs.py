@@ -109,8 +109,9 @@ class Springs:
 
     @property
     def misfit(self) -> float:
-        """The largest difference of the resistance from hyperbolas with the same
-        ultimate and half, over the largest resistance."""
+        """The largest difference between the resistance and springs that are hyperbolas
+        with the ultimate and the displacement at half of it, over the largest
+        resistance."""
         z, together = self.displacement, np.zeros(len(self.displacement))
         for spring in self.springs:
             if spring.ultimate > 0:
@@ -211,8 +212,9 @@ def speed_of_tolerance(run: LoadedRun) -> float:
 
 
 def shear_modulus(layers: list[dict[str, Any]], depth: float) -> float:
-    """Return the shear modulus (Pa) of the softest layer above a depth (m), nan without
-    one. Materials of a layer count by thickness, at the stress at rest."""
+    """Return the shear modulus (Pa) of the softest layer above a depth (m); nan where
+    the law of one has none. Materials of one layer, whose numbers change with depth,
+    count by their thickness, each with the stress at rest in its middle."""
     bottoms = [*(float(layer["top_depth_m"]) for layer in layers[1:]), depth]
     above, sums = 0.0, dict[int, tuple[float, float]]()
     for layer, bottom in zip(layers, bottoms):

@@ -41,8 +41,11 @@ def stress_of(data: Arrays) -> np.ndarray:
 
 @dataclass
 class Wall:
-    """The wall of a rigid body in the ground (m): radii (inner: 0 without a plug), and
-    the profile of its lower end from the inside to the outside."""
+    """The wall of a rigid body in the ground (m).
+
+    inner, outer: radii; inner is 0 of a body without a plug. profile_r, profile_z: the
+    lower end, from the inside to the outside. shoulder: where the vertical walls end.
+    """
 
     inner: float
     outer: float
@@ -78,8 +81,9 @@ class Wall:
 
 @dataclass
 class Layer:
-    """A layer of soil: number, unit weight in water (N/m3) and Young's modulus (Pa),
-    means over its points; top (m); assumed: its modulus follows from stress."""
+    """A layer of soil: its number in the scene, its submerged unit weight (N/m3) and
+    Young's modulus (Pa), means over its points, and the depth of its top (m).
+    assumed: its law has no Young's modulus, so that this one follows its stress."""
 
     number: int
     unit_weight: float

@@ -149,8 +149,9 @@ def steps_of(low: float, high: float, height: float) -> np.ndarray:
 
 
 def rows_of_ring(edges: np.ndarray, z: np.ndarray, tip: float) -> np.ndarray:
-    """Return the heights of edges [n] that divide a ring into rows with centers z:
-    around an empty row the middle, or the tip."""
+    """Return the heights among the edges [n] that divide a ring into rows with centers
+    z of cells: where a row has none, those beside it meet in the middle or at the
+    tip."""
     filled = np.flatnonzero(np.histogram(z, edges)[0])
     rows = [edges[0]]
     for below, above in zip(filled[:-1], filled[1:]):
@@ -185,8 +186,9 @@ def zones_of(state: Exported) -> list[Zone]:
 
 
 def line_of(state: Exported, zone: Zone) -> dict[str, float | str]:
-    """Return the row of a zone: means by volume. The past vertical stress is that of
-    yielding, or of rest, and at least the present one."""
+    """Return the row of a zone: means by volume over its cells. The past vertical
+    stress is that of yielding, where it is known, or else that of the ground at rest,
+    and at least the present one."""
     cells, fields = zone.cells, state.values.fields
     volume = state.mesh.volumes[cells]
 

@@ -57,8 +57,9 @@ make_runs = runs_of
 
 
 def check(studies: Sequence[Study], jobs: int) -> None:
-    """Let the program check all runs that are not complete, and keep their sizes.
-    Raises StudyError with what it says of the first one it refuses."""
+    """Let the program check all runs that are not complete, without computing them, and
+    keep their sizes. Raises StudyError with what it says of the first run that it
+    refuses."""
 
     def refusal_of(run: StudyRun) -> str:
         try:

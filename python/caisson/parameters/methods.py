@@ -79,8 +79,9 @@ def answers_of(outcomes: Outcomes) -> Answers:
 
 
 def write(path: Path, found: Answers) -> Path:
-    """Write the total force (N) of each run, and by each case of each method with its
-    soil, at each 0.1 m; cells without an answer are empty."""
+    """Write the total force (N) of each run, and by each case of each method with the
+    soil of each run, at each 0.1 m
+    and the last depth; cells without an answer are empty."""
     columns: dict[str, np.ndarray] = {DEPTH: found.depth}
     for name, force in zip(found.names, found.computed):
         columns[f"{TOTAL} [{name}]"] = force

@@ -236,8 +236,9 @@ class Outcomes:
         return np.array(rows).reshape(len(rows), len(depths))
 
     def tornado_depth(self) -> float | None:
-        """Return the depth (m) of the tornado, of the study or the deepest that most
-        runs reach; None without runs. Raises StudyError where none has been."""
+        """Return the depth (m) of the tornado: that of the study, or the deepest of
+        the table that as many runs as possible reach; None where no run counts.
+        Raises StudyError where none has been there."""
         if not self.complete:
             return None
         if "tornado_depth" in self.study.keys:
@@ -251,8 +252,9 @@ class Outcomes:
         return float(self.depths[reached == reached.max()].max())
 
     def error(self, depths: np.ndarray, values: np.ndarray) -> np.ndarray | None:
-        """Return the error below and above [2, n_depths] of values by the error bar
-        beside the scene, for its numerics; None without one."""
+        """Return how far the truth may lie below and above [2, n_depths], by the error
+        bar beside the scene, for its numerics; None where there is none. values: of
+        what is observed."""
         every = error_bounds.QUANTITIES.values()
         named = [q for q in every if q.column() == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)

@@ -56,8 +56,9 @@ def suction_at(history: Table, depth: np.ndarray) -> np.ndarray:
 
 
 def column_of(answer: theory.Answer, case: str, part: str) -> str:
-    """Return the column with a part of a method, such as houlsby_byrne_low_tip_N or, by
-    an assumed cone, dnv_assumed_cone_highest_..."""
+    """Return the column with a part of the resistance by a method, such as
+    houlsby_byrne_low_tip_N or, by a cone that is assumed, dnv_assumed_cone_highest_...
+    """
     mark = ["assumed_cone"] if answer.assumed else []
     return "_".join([answer.method.key, *mark, *case.split(), *part.split(), "N"])
 

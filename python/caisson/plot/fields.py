@@ -72,8 +72,12 @@ class Frame:
 
 
 def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
-    """Return the frames to draw, MOST_FRAMES at most and the last among them: at the
-    penetrations wanted (m), or evenly where a run has not come to them."""
+    """Return the frames to draw, MOST_FRAMES at most.
+
+    wanted: the penetrations at which the scene asks for frames (m). Without any,
+    and where a run has not come to the last of them, frames are taken evenly. The last
+    frame is always among them.
+    """
     positions = np.array([time for time, _ in series])
     if penetration(history) is not None:
         positions = np.array([depth_at(time, history) for time in positions])
@@ -159,8 +163,9 @@ def tops_of(scene: dict[str, Any]) -> list[float]:
 def boundary_now(
     position: np.ndarray, displacement: np.ndarray, z: float, edges: np.ndarray
 ) -> np.ndarray:
-    """Return where a boundary at z is now, [n, 2] between edges [n + 1]: moved as the
-    closest of the material points [n_points, 2], nan without any."""
+    """Return where a boundary that was at z is now, [n, 2] in the strips between
+    edges [n + 1]: it has moved as the material points [n_points, 2] that were closest
+    to it; nan where none was close."""
     off = position[:, 1] - displacement[:, 1] - z
     strip = np.searchsorted(edges, position[:, 0]) - 1
     found = np.full((len(edges) - 1, 2), np.nan)
@@ -235,8 +240,9 @@ def nice_above(value: float) -> float:
 def panels(
     n: int, window: Window, bars: int, note: float
 ) -> tuple[Figure, np.ndarray, list[Axes]]:
-    """Return a figure of n panels in the shape of the window, at most as wide as a
-    page, and places of color bars. note: height of a text below (inches)."""
+    """Return a figure of n panels beside each other with the shape of the window, as
+    wide as a page or narrower, and the places of color bars below them. note: the
+    height of a text below these (inches)."""
     left, gap, above, foot = 0.55, 0.2, 0.45, note + 1.25  # inches
     width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, 3.6)
     height = width * (window[2] - window[1]) / (2 * window[0])

@@ -125,8 +125,9 @@ def draw_error_bars(axes: Axes, bounds: Table) -> None:
 
 
 def set_limits(axes: Axes, depth: np.ndarray, end: float | None) -> None:
-    """Set limits from the running means, not by spikes, and from methods up to half as
-    much again. end: where suction ends (m), below which all is gray."""
+    """Set limits from the running means, so that no spike of a raw line hides them,
+    and from the methods up to half as much again. end: the depth where suction ends
+    (m), below which all is gray."""
 
     def values(is_mean: Callable[[float], bool]) -> np.ndarray:
         lines = [

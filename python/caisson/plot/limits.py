@@ -131,8 +131,9 @@ def wall_of(run: Results) -> shell.Wall | None:
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
-    """Return the suction (kPa) [n] at which the exit gradient becomes critical at
-    depths [n], as flow is linear; nan without suction or hardly any flow."""
+    """Return the suction (kPa) at which the exit gradient of the run becomes critical,
+    at depths [n], nan where there is no suction, and where hardly any water flows,
+    as with the tip in clay. The flow is linear in the suction."""
     history = run.history
     if "critical_gradient" not in history:
         return np.full(len(at), np.nan)
@@ -215,8 +216,9 @@ def lid_depth(depth: np.ndarray, room: np.ndarray) -> float | None:
 
 
 def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the limits of the suction (kPa) [n] by their factors, nan or infinite for
-    none; that of the lid is 0 from where the plug meets it."""
+    """Return the limits of the suction (kPa) at depths [n], nan or infinite where one
+    is none, each by its factor; only those that there are. That of the lid is 0 from
+    where the plug meets it."""
     numbers = at_depths(run, at)
     if not (factors := factors_of(run)):
         return {}

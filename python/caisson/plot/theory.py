@@ -46,8 +46,9 @@ class Site(NamedTuple):
     is_running: bool = False  # and has left no run.json yet
 
     def layers(self, deepest: float) -> list[tuple[int, Scene]]:
-        """Return the layers above a depth (m), with their numbers; a layer that changes
-        with depth is several."""
+        """Return the layers that begin above a depth (m), with their numbers; a
+        layer whose numbers change with depth is several. Older files have no list of
+        layers, but what counts for the only layer."""
         pairs = enumerate(self.scene.get("layers", [self.scene]), 1)
         return [
             (int(e.get("layer", i)), e)
@@ -83,8 +84,9 @@ def sand_of(entry: Scene, number: int) -> Sand:
 
 
 def layers_of(site: Site, deepest: float) -> list[Layer]:
-    """Return the layers down to a depth (m), those by density in pieces with the
-    friction angle of their middle. Raises NotApplicable."""
+    """Return the layers of run.json down to a depth (m); one whose strength follows
+    from its density in pieces, with the friction angle of their middle. Raises
+    NotApplicable."""
     found, above = list[Layer](), list[Sand]()
     entries = site.layers(deepest)
     bottoms = [top_of(entry) for _, entry in entries[1:]] + [deepest]
@@ -350,8 +352,9 @@ OF_CLAY = METHODS[-1]
 
 @dataclass(frozen=True)
 class Beside:
-    """What a method says of one quantity, [n] each (N or Pa): a lower and an upper
-    case, bounds below them, a limit, and whether cases end there (piping)."""
+    """What a method says of one quantity over depth, beside which a run stands: its
+    lower and its upper case, and a bound below them, [n] each (N or Pa); the limit
+    beyond which no suction suffices, and whether the cases end there, by piping."""
 
     name: str
     cases: dict[str, np.ndarray]
@@ -471,8 +474,9 @@ def reasons_in_words(answers: list[Answer]) -> str:
 
 
 def about_cone(site: Site, deepest: float) -> str:
-    """Return where the cone test ends above an embedment (m), or what an assumed one
-    rests on, and the friction angle of sand by its density."""
+    """Return a sentence where the cone test ends above an embedment (m), or what a
+    cone resistance that is assumed rests on; with the friction angle of sand whose
+    strength follows from its density."""
     if site.cone is None:
         answers = answers_of(site, np.array([deepest]))
         found = [next((a.assumed for a in answers if a.assumed), "")]

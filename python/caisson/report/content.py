@@ -279,8 +279,9 @@ def pull_figure(run: Results) -> dict[str, Any]:
 def figures_of(
     run: Results, found: Installation | None, end: float | None = None
 ) -> list[dict[str, Any]]:
-    """Return the interactive figures: id, title, axis, note and curves, the suction
-    before the forces. end: the depth where suction ends (m)."""
+    """Return the interactive figures: id, title, axis, note and curves that have
+    points; the suction, where there is any, before the forces. end: the depth where
+    suction ends (m)."""
     if forces.penetration(run.history) is None:
         return []
     if is_pull(run):

@@ -332,8 +332,9 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
 
 
 def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
-    """Return tables of the design methods at each meter, (methods, why they say
-    nothing), and sentences. end: where suction ends (m)."""
+    """Return the tables of the design methods at each meter, (methods, why they say
+    nothing), and sentences on them; nothing for a run without a way down. end: the
+    depth where suction ends (m)."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return NOTHING

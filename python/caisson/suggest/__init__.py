@@ -208,8 +208,9 @@ def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
 def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
-    """Return what the template takes of weight and water: in clay alone none flows.
-    soil: the layers with all of their entries."""
+    """Return what the template takes of weight and water. Where all of the soil is
+    undrained clay no water flows, and clay with a law of effective stress keeps its
+    water. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
     clays = list(map(walls.is_clay, layers))
@@ -463,8 +464,9 @@ def ends_of(
 
 
 def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
-    """Write the scene, those of estimates, and a study; say the cost. Raises
-    SuggestError, RunError, InputError or OSError."""
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
+    """
     check(options, estimates)
     found = None
     known = {} if options.cpt else entries_of_layers()

@@ -161,8 +161,9 @@ def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
 def choices_of(
     found: Interpretation, end: float, wall_friction: float | None, law: str
 ) -> dict[str, dict[str, float]]:
-    """Return the entries of low, best and high: density or strength, stiffness, and the
-    friction of walls by a friction angle."""
+    """Return the entries of the low, the best and the high estimate: density or
+    strength, and stiffness of all layers together, and the friction of the walls where
+    it follows from a friction angle."""
     choices: dict[str, dict[str, float]] = {}
     for name in ENDS:
         entries: dict[str, Any] = {}

@@ -155,8 +155,9 @@ def at_rest(angle: str) -> list[Entry]:
 def numbers_of(
     law: str, density: float, void_ratio: float, given: Mapping[str, Entry]
 ) -> list[Entry]:
-    """Return what is assumed of sand of a density beside given entries; with an
-    overconsolidation ratio the program finds K0."""
+    """Return what is assumed of sand of a relative density, at the start, beside the
+    entries that are given. With an overconsolidation ratio K0 is left to the program.
+    """
     weight = (QUARTZ_DENSITY - WATER_DENSITY) * GRAVITY / (1 + void_ratio) / 1e3
     own, angle = list[Entry](), "30"  # of Karlsruhe sand
     if law == names.LAW:

@@ -94,8 +94,9 @@ def rounded_up(length: float, step: float) -> float:
 def zone_of(
     body: Body, start: float, cell_height: float, tops: Sequence[float]
 ) -> float:
-    """Return the height of the moving zone below the tip. Close to the top of a layer
-    it ends there, as a thin row between would cost points and steps."""
+    """Return the height of the moving zone below the tip. Where it would end close to
+    the top of a layer it ends there: the boundary of a layer is a line of the mesh, and
+    a row between the two would be thin, which costs points and a short step."""
     d = body.diameter
     zone = to_two_digits(max(d / 4, min(1.0, d / 2)))
     for top in tops:

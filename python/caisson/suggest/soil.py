@@ -181,8 +181,9 @@ def pair_of(part: str) -> tuple[str, str]:
 
 
 def texts_in(text: str, known: Mapping[str, str], law: str = "") -> dict[str, str]:
-    """Return what is given of a layer, by names of entries. law: of the layer that it
-    changes, "" for a layer of its own. Raises SuggestError."""
+    """Return what is given of a layer as it is written, by names of entries. law: of
+    the layer whose entries these change, "" for a layer of its own. Raises
+    SuggestError."""
     found = re.search(r"(?:^|,)\s*law\s*=\s*([^,]+)", text, re.I)
     law = law_named(found[1].strip()) if found else law or MOHR_COULOMB
     texts: dict[str, str] = {}

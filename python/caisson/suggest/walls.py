@@ -98,8 +98,9 @@ def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
 def with_walls(
     layers: Sequence[Layer], given: float | None, reached: Sequence[Layer]
 ) -> list[Layer]:
-    """Return the layers with friction and adhesion of walls that they need. reached: by
-    the skirt; given: friction of sand, 0: of all. Raises SuggestError."""
+    """Return the layers with the friction angle and the adhesion factor of the walls
+    that they need beside those of the body. reached: by the skirt; given: the friction
+    angle of sand, with 0 of all soil. Raises SuggestError."""
     if given == 0:
         return list(layers)
     own = have_own(reached) if given is None else False
