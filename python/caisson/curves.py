@@ -56,7 +56,8 @@ def window_means(
 
 
 def window_rms(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the root mean square of values [n] about each position [n]."""
+    """Return the root of the mean square of values [n] about each position [n];
+    at the ends over the part of the window that there is."""
     near = [in_window(position, at, width) for at in position]
     return np.array([np.sqrt(np.mean(values[rows] ** 2)) for rows in near])
 
@@ -173,7 +174,8 @@ def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.n
 
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
-    """Return the scatter of a force about its running mean over that (share of 1)."""
+    """Return the standard deviation of a force about its running mean over the
+    mean of the latter, from FROM on (a share of 1)."""
     mean = running_mean(position, force, FORCE_WINDOW)
     used = (position >= FROM) & np.isfinite(mean)
     if not used.any():
@@ -221,7 +223,8 @@ def depth_at(time: float, history: Table) -> float:
 def error_band(
     bounds: Table, name: str, unit: str = ""
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Return depths and means of both bounds of a quantity, [n_rows] each, or None."""
+    """Return depths and running means of the lower and the upper bound of a quantity,
+    [n_rows] each, or None where the run has none."""
     low, high = ["_".join(filter(None, [name, s, unit])) for s in ("low", "high")]
     if low not in bounds or high not in bounds:
         return None

@@ -20,8 +20,16 @@ DEPTH, TOTAL, SUCTION = "penetration_m", "total_force_N", "required_suction_Pa"
 HEAVE, ROOM, BOILING = "plug_heave_m", "room_below_lid_m", "cavitation_suction_Pa"
 GRADIENT = "exit_gradient_over_critical"
 COLUMNS = (
-    *("tip_force_N", "inner_friction_N", "outer_friction_N", TOTAL, curves.WITH_WATER),
-    *("suction_Pa", SUCTION, BOILING, "seepage_flow_m3_s", HEAVE),
+    "tip_force_N",
+    "inner_friction_N",
+    "outer_friction_N",
+    TOTAL,
+    curves.WITH_WATER,
+    "suction_Pa",
+    SUCTION,
+    BOILING,
+    "seepage_flow_m3_s",
+    HEAVE,
 )
 FEW = 25  # rows of a way up, with fewer of which a median is over three of them
 FRICTION_RISE = 5e-3  # m, which mobilizes friction
@@ -129,7 +137,8 @@ def changes_of_suction(history: Table) -> list[float]:
 
 
 def rest_of_run(history: Table) -> float | None:
-    """Return the penetration by weight alone (m), where suction begins, or None."""
+    """Return the penetration by weight alone (m), where suction begins; None where
+    there is none, or where it acts from the first row on."""
     changes = changes_of_suction(history)
     return changes[0] if changes and changes[0] > history[DEPTH][0] else None
 
@@ -149,7 +158,8 @@ def pump_limit(run: Results) -> float | None:
 
 
 def margins_of(run: Results, way: Way) -> dict[str, Any]:
-    """Return the least margins of the suction (shares of 1), and the least room (m)."""
+    """Return the least margins to piping, boiling and the largest suction of the pump,
+    as shares of 1, and the least room below the lid (m)."""
     required = np.maximum(way.columns[SUCTION], 0)
 
     def margin(ratio: np.ndarray) -> dict[str, float]:
@@ -237,7 +247,8 @@ def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:
 
 
 def is_capacity(way: Pull, depth: np.ndarray) -> bool:
-    """Return whether friction is mobilized, and the pull does not increase."""
+    """Return whether friction is mobilized, and the pull does not increase: the body
+    has risen further by a fifth, or bore nearly as much before."""
     rises = depth[way.begin] - depth[way.begin + 1 :][: len(way.medians)]
     rise, end = rises[way.most - way.begin - 1], rises[-1]
     if end < FRICTION_RISE:
@@ -253,7 +264,8 @@ def is_capacity(way: Pull, depth: np.ndarray) -> bool:
 
 
 def mechanism_of(history: Table, most: int, growth: dict[str, float]) -> str:
-    """Return how a caisson with a sealed lid fails. growth: of columns in m3."""
+    """Return how a caisson with a sealed lid fails, by what has filled the space
+    beneath it up to a row. growth: of columns on the way up, in m3."""
     if history["lid_cavity_m3"][most] > 0:
         return "cavitation beneath the lid"
     pull = -history.get(curves.WITH_WATER, history[TOTAL])[most]

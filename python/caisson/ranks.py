@@ -93,7 +93,8 @@ def choose(points: int) -> tuple[int, str]:
 
 @dataclass(frozen=True)
 class Size:
-    """The points of a run, and most and least seconds on one core; 0 if unknown."""
+    """What a run is going to take: its points, and the most and the least seconds on
+    one core, all 0 where they are not known."""
 
     points: int = 0
     seconds: float = 0.0

@@ -69,7 +69,8 @@ def mpi_command(ranks: int, binding: str = "none") -> list[str]:
 
 
 def environment() -> dict[str, str]:
-    """Return the environment of a run, of which variables that are set stay."""
+    """Return the environment of a run: one thread for each rank, MPI also as
+    root (as in a container). Variables that are set already keep their value."""
     defaults = {
         "OMP_NUM_THREADS": "1",
         "DEAL_II_NUM_THREADS": "1",
@@ -203,7 +204,8 @@ class Run:
         return [str(self.scene), *options, *set_options(self.entries)]
 
     def validate(self) -> Size:
-        """Return the size of a run that the program accepts. Raises RunError."""
+        """Let the program check the input without running it; return the size of the
+        run. Raises RunError with what it says where it refuses the input."""
         return size_in(query([*self.arguments(), "--validate"], self.program))
 
     def resume(self) -> None:
@@ -243,7 +245,8 @@ class Run:
         return found if isinstance(found, dict) and keys <= set(found) else None
 
     def share_done(self, elapsed: float) -> float:
-        """Return what part of a run is over after so many seconds; 0 if unknown."""
+        """Return what part of the time of a run is over after so many seconds, by the
+        time that it expects to need still; 0 where it says none."""
         try:
             with open(self.directory / "log", "rb") as log:
                 log.seek(-min(log.seek(0, os.SEEK_END), 1000), os.SEEK_END)
@@ -303,7 +306,8 @@ class Run:
             raise RunError(f"{said}\n(exit status {status}, results: {self.directory})")
 
     def stop(self, process: "subprocess.Popen[str]") -> None:
-        """Stop a call with a checkpoint by the stop file, and wait for its end."""
+        """Stop a call with a checkpoint, and wait for its end: by the stop file, as
+        mpirun ends ranks that get a signal before they have written theirs."""
         name = self.parameter("Run control/Stop file", self.program)
         if name and self.directory.is_dir():
             (self.directory / name).touch()

@@ -338,7 +338,8 @@ def file_name(text: str) -> str:
 
 
 def check_is_own(directory: Path, study: Study, names: Iterable[str]) -> None:
-    """Raise StudyError where a directory has such files and no run of the study."""
+    """Raise StudyError where a directory has files of these names, which the study is
+    going to write, and none of its runs: they are of something else."""
     found = [path for path in map(directory.joinpath, names) if path.exists()]
     is_own = any((run.run.directory / Run.RECORD).is_file() for run in study.runs)
     if found and not is_own:

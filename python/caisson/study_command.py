@@ -118,7 +118,8 @@ def query_size(run: StudyRun) -> None:
 
 
 def cost_of(study: Study) -> str:
-    """Return how long the runs take on one core, by the file or the program."""
+    """Return how long the runs of a study take on one core, as a range. Where the file
+    does not say it, the program is asked for the first, the middle and the last."""
     silent = [run for run in study.runs if not run.seconds]
     asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
     for run in asked:
@@ -187,7 +188,8 @@ def run_and_evaluate(
 
 
 def to_do_of(runs: Sequence[StudyRun], again: bool) -> list[StudyRun]:
-    """Return the runs that are not complete, the longest first."""
+    """Return the runs that are not complete, the longest first. Of a few long ones,
+    which several ranks may make faster, the sizes are asked for."""
 
     def is_to_do(run: StudyRun) -> bool:
         return again or not run.run.is_complete()

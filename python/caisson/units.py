@@ -4,9 +4,21 @@ tables and of the arrays of frames."""
 
 # the end of a name, and the unit; a longer end comes before one that ends like it
 UNITS = {
-    **{"m3_s": "m3/s", "m_s": "m/s", "kg_m3": "kg/m3", "J_m3": "J/m3"},
-    **{"N_m3": "N/m3", "deg": "degree"},
-    **{unit: unit for unit in "m3 m2 kPa Pa kg J N m s".split()},
+    "m3_s": "m3/s",
+    "m_s": "m/s",
+    "kg_m3": "kg/m3",
+    "J_m3": "J/m3",
+    "N_m3": "N/m3",
+    "m3": "m3",
+    "m2": "m2",
+    "kPa": "kPa",
+    "Pa": "Pa",
+    "kg": "kg",
+    "deg": "degree",
+    "J": "J",
+    "N": "N",
+    "m": "m",
+    "s": "s",
 }
 NONE = "1"  # of counts, ratios and numbers of materials
 

@@ -127,7 +127,8 @@ def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, 
 def write(
     test: Interpretation, file: Path, directory: Path, facts: list[tuple[str, str]]
 ) -> Path:
-    """Write the page of a study with a cone test. Raises ResultsError without a run."""
+    """Write the page of a study with a cone test. facts: what it names first. Raises
+    ResultsError where no run has an answer."""
     study = study_of(file, directory)
     outcomes = Outcomes(study)
     if not outcomes.complete:

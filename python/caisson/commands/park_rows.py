@@ -203,7 +203,11 @@ def write_scenes(path: Path, positions: Sequence[Position], folder: Path) -> Non
 def study_of(path: Path, positions: Sequence[Position], folder: Path) -> str:
     """Return the text of the study of a park; the scenes are in the folder scenes
     beside it, and those of a band beside each of them."""
-    lines = ['kind = "park"', 'id = "runs"', f"title = {disk.quoted(path.name)}"]
+    lines = [
+        'kind = "park"',
+        'id = "runs"',
+        f"title = {disk.quoted(path.name)}",
+    ]
     for position in positions:
         scene = folder / "scenes" / f"{file_name(position.name)}.prm"
         for estimate in ESTIMATES:

@@ -56,7 +56,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
-    """Return where the program will write and its stop file, None for none."""
+    """Return where the program will write, and the file that stops it. None where there
+    is none: of bad input, which it explains itself, or of options that only print."""
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--output-directory", type=Path)
     chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
@@ -70,7 +71,8 @@ def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
 
 
 def choose_ranks(arguments: list[str]) -> int:
-    """Return the number of ranks that pays, and say why; one where nothing runs."""
+    """Return the number of ranks that pays for a run, and say why. It is one where
+    there will be no run: the program itself says what is wrong with the input."""
     if "--validate" in arguments:
         return 1
     try:

@@ -45,7 +45,8 @@ def scenes_of(best: Path) -> dict[str, Path]:
 
 
 def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
-    """Return the checked runs of a band by estimate. Raises RunError."""
+    """Return the runs of a band by estimate, checked by the program, with how long they
+    take. Their directories are named after that of the best one. Raises RunError."""
     given = [word for k, v in entries.items() for word in ("--set", f"{k}={v}")]
     directory = Path(read_parameters([str(best), *given])["Output/Directory"])
     found = {}

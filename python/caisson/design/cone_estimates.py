@@ -99,7 +99,8 @@ def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
 
 
 def growth_of(ground: Ground, names: dict[str, str]) -> np.ndarray:
-    """Return the stiffness of sand at rest [n] over that at 100 kPa."""
+    """Return the stiffness of sand at rest [n] over that at a mean effective stress of
+    100 kPa, if it grows with the square root of the stress."""
     k0 = correlations.at_rest(correlations.angles_of(ground, names, BEST))
     return np.sqrt(correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE)
 

@@ -130,7 +130,8 @@ def is_plain(path: Path, how: How = How()) -> bool:
 
 
 def wrong_in(cells: list[str], has_points: bool) -> str:
-    """Return what is wrong with the numbers of a row, "" for nothing."""
+    """Return what is wrong with the numbers of a row, "" for nothing. has_points:
+    numbers of the file have a decimal point, so that a comma is none."""
     for text in cells:
         if has_points and COMMA.fullmatch(text):
             return (

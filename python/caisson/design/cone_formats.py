@@ -41,7 +41,8 @@ def listed(names: Sequence[str]) -> str:
 
 
 def chosen_of(path: Path, names: Sequence[str], location: str, example: str) -> str:
-    """Return the name of the test that is read, one of names. Raises InputError."""
+    """Return the name of the test that is read. example: of --location. Raises
+    InputError where it is not there or has to be chosen."""
     if location and location not in names:
         raise InputError(
             f"{path} has no test {location!r}; the tests are {listed(names)}"
@@ -63,7 +64,8 @@ def is_gef(lines: Sequence[str]) -> bool:
 
 
 def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
-    """Return row, key and value of the lines above the table. Raises InputError."""
+    """Return row, key and value, divided at its commas, of the lines above the table,
+    and the number of the last one. Raises InputError."""
     found: Keys = []
     for row, line in enumerate(lines, 1):
         if match := re.match(r"#\s*(\w+)\s*=?(.*)", line):
@@ -131,7 +133,8 @@ def gef_facts(keys: Keys) -> Facts:
 
 
 def gef_rows(path: Path, lines: Sequence[str], keys: Keys, last: int) -> Rows:
-    """Return the rows below the last line, empty for no value. Raises InputError."""
+    """Return the rows of the table, below the last line of the keys, with empty cells
+    where a column has no value. Raises InputError."""
     what = "the number of a column, from 1, and a number"
     voids = gef_lines(
         path,
@@ -240,7 +243,8 @@ def ags_row(path: Path, rows: Rows, name: str) -> tuple[int, list[str]]:
 
 
 def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list[str]]:
-    """Return the net area ratio of pushes by LOCA_ID and SCPG_TESN, and remarks."""
+    """Return the net area ratio of the cone of pushes, None where the file has none,
+    and in words that it is not the same for all. keys: LOCA_ID and SCPG_TESN."""
     heads: list[str] = []
     found = []
     for _, cells in groups.get("SCPG", []):
@@ -274,7 +278,8 @@ def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def ags(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> Table:
-    """Return the table of the test at a location, "" for the one. Raises InputError."""
+    """Return the table of the test at a location, "" for that of the file if it has
+    only one; the pushes of a location are one test. Raises InputError."""
     groups = ags_groups(path, lines)
     row_of_heads, texts = ags_row(path, groups["SCPT"], "HEADING")
     row_of_units, units = ags_row(path, groups["SCPT"], "UNIT")
@@ -363,7 +368,8 @@ def bro_records(path: Path, test: ElementTree.Element) -> Rows:
 
 
 def bro(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> Table:
-    """Return the table of BRO-XML; where: its number in it. Raises InputError."""
+    """Return the table of a file of BRO-XML; where: its number in the register, needed
+    in a file of several. Raises InputError."""
     text = "\n".join(lines)
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise InputError(f"{path}: XML with definitions of its own is not read")

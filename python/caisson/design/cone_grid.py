@@ -38,7 +38,8 @@ def divided(line: str, divider: str | None) -> list[str]:
 
 
 def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
-    """Return the lines with their numbers, joined where quotation marks are open."""
+    """Return the lines with their numbers; one with a quotation mark that is open, as
+    in a head of two lines, with those that follow to where it is closed."""
     found, begin = list[tuple[int, str]](), 0
     while begin < len(lines):
         some = (lines[begin : begin + n] for n in (1, 2, 3))
@@ -86,7 +87,8 @@ def rows_of(sheet: Iterable[Sequence[object]]) -> Rows:
 
 
 def first_without_value(values: Any, formulas: Any) -> int:
-    """Return the first row of a formula if none has a stored value, else 0."""
+    """Return the first row of a sheet with a formula where no formula has a stored
+    value, else 0. formulas: the same sheet, read with them."""
     found = 0
     sheets = (sheet.iter_rows(values_only=True) for sheet in (values, formulas))
     for row, (stored, written) in enumerate(zip(*sheets), 1):
@@ -99,7 +101,8 @@ def first_without_value(values: Any, formulas: Any) -> int:
 
 
 def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
-    """Return the rows of a sheet, "" for the only one of a test. Raises InputError."""
+    """Return the rows of a sheet, "" for the only one that has the heads of a test, or
+    of numbers if the columns have names. Raises InputError."""
     try:
         import openpyxl  # which no other file needs
     except ModuleNotFoundError as error:

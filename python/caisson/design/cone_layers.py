@@ -50,7 +50,8 @@ class Layer:
 
 
 def costs(x: np.ndarray, shortest: int) -> np.ndarray:
-    """Return the squares about the mean of x [n, ...] from i to j: [n + 1, n + 1]."""
+    """Return the sum of squares about the mean of x [n] or [n, n_x] from i to j,
+    [n + 1, n + 1], inf where it is shorter than shortest."""
     n = len(x)
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
     count, found = np.maximum(j - i, 1), np.zeros((n + 1, n + 1))
@@ -108,7 +109,8 @@ def tops_of(
 def with_edges(
     tops: list[float], edges: Sequence[float], nearest: float, last: float
 ) -> list[float]:
-    """Return tops with edges, which replace nearer ones; last: end of the test (m)."""
+    """Return tops of layers that begin at edges, too; others that are nearer than
+    nearest to an edge give way. last: end of the test (m)."""
     inside = [edge for edge in edges if 0 < edge < last]
     kept = [t for t in tops if all(abs(t - edge) >= nearest for edge in inside)]
     return sorted({0.0, *kept, *inside})

@@ -19,7 +19,8 @@ OPTIONS = {
 
 
 class How(NamedTuple):
-    """What options say of a file: test, sheet, columns, soil above; "" for nothing."""
+    """What options say of a file: which test in it, which sheet, the names of the
+    columns, and the soil above the first row; "" for nothing."""
 
     location: str = ""
     sheet: str = ""

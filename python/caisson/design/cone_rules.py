@@ -212,7 +212,8 @@ class Readings:
         self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
 
     def leave_out_no_load(self) -> None:
-        """Leave out rows in which the cone met no soil, at the start or few."""
+        """Leave out the rows in which the cone met no soil: a resistance of less than 0
+        or the sleeve friction; at the start of a test, or few."""
         tip = self.values[self.tip]
         friction = self.values.get("fs", np.zeros(len(tip)))
         low = RANGES[self.tip][0]
@@ -271,7 +272,8 @@ class Readings:
             self.refuse(wrong, lambda i: self.out_of_range(name, values[i]))
 
     def complete_friction(self) -> None:
-        """Fill gaps of the friction by shares of q_c; refuse one in another unit."""
+        """Take a drift below 0 as 0, and where there is none the share of q_c of the
+        rows next to it; refuse a friction in another unit than its column says."""
         if not self.has_values("fs"):
             return
         friction, tip = self.values["fs"], np.maximum(self.values[self.tip], 1.0)

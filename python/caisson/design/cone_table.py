@@ -20,7 +20,8 @@ Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its c
 
 
 class Head(NamedTuple):
-    """A column of the file: place, name, quantity ("" for none), unit and row."""
+    """A column as the file has it: its place, its name there, the quantity that this
+    means ("" for none), its unit as written, and the row that says so."""
 
     place: int
     text: str
@@ -48,7 +49,8 @@ class Facts(NamedTuple):
 
 @dataclass
 class Table:
-    """The rows of a test, its columns by quantity, and how they are to be read."""
+    """The rows of a test, and its columns by quantity; heads that were not read, where
+    units are, the push of each row, and whether rows are in the order of depth."""
 
     columns: Mapping[str, Column]
     rows: Rows
@@ -67,7 +69,8 @@ def cell_of(cells: Sequence[str], place: int) -> str:
 
 
 def value_of(text: str) -> float:
-    """Return a number, nan of an empty cell and of a void. Raises ValueError."""
+    """Return a number with a decimal point or comma, nan of an empty cell and of one
+    that stands for no value. Raises ValueError."""
     if not text:
         return nan
     value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)

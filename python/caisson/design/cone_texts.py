@@ -20,7 +20,13 @@ from caisson.design.cone_estimates import (
     Estimates,
 )
 from caisson.design.cone_layers import BAND, Layer
-from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
+from caisson.design.correlations import (
+    ANGLE,
+    DENSITY,
+    EVERY,
+    MODULUS,
+    STRENGTH,
+)
 from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
@@ -84,7 +90,8 @@ def text_of_test(test: Interpretation) -> str:
 
 
 def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
-    """Return where I_c, friction and pressure of a layer disagree, or with its kind."""
+    """Return where I_c, friction ratio and pore pressure of a layer do not agree with
+    each other, or with the kind that is given."""
     index, friction, behavior, pressure, excess = (
         ground.median(values, layer.rows)
         for values in (
@@ -129,7 +136,8 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
 
 
 def remarks(test: Interpretation) -> list[str]:
-    """Return what the table rests on, lenses and bands, gaps, and what is not read."""
+    """Return what the table rests on, lenses and bands, what can be done with other
+    soil than sand, gaps, and columns that were not read."""
     have = {name for e in test.layers for name in e.values}
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:

@@ -91,7 +91,8 @@ def quantity_of(name: str) -> str:
 
 
 def head_of(text: str) -> tuple[str, str]:
-    """Return quantity and unit of a head such as "qc (MPa)", "" for none."""
+    """Return quantity and unit of a head such as depth_m, "qc (MPa)" or "Tiefe in m";
+    each "" where it is not known or not there."""
     low = plain(text)
     if is_level(low):
         return "", ""
@@ -113,7 +114,8 @@ def is_level(text: str) -> bool:
 
 
 def fact_of(cells: Sequence[str]) -> tuple[str, float] | None:
-    """Return a key of FACTS and its value of a line, or None."""
+    """Return what a line says of the whole test, a key of FACTS and its value, "water"
+    and 1.2 of "Assumed GWL:, 1.2 m"; None where it says nothing known."""
     text = " ".join(cell.strip() for cell in cells if cell.strip())
     found = re.fullmatch(r"(\D*?)[\s:=,]*([+-]?\d+(?:[.,]\d+)?)\s*(\D*)", text)
     for fact, words in FACTS.items() if found else ():

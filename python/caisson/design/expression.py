@@ -20,9 +20,19 @@ HELP = (
     " effective stress at the start (Pa)"
 )
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{"min": min, "max": max, "abs": abs},
+    "min": min,
+    "max": max,
+    "abs": abs,
     "if": lambda condition, yes, no: yes if condition else no,
-    **{f: getattr(math, f) for f in "sqrt exp log log10 tanh sin cos tan pow".split()},
+    "sqrt": math.sqrt,
+    "exp": math.exp,
+    "log": math.log,
+    "log10": math.log10,
+    "tanh": math.tanh,
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "pow": math.pow,
 }
 UNITS_OF_NUMBERS = [unit for unit in quantity.UNITS if unit]
 OF_TERMS = ("min", "max", "abs", "if")  # their arguments have the same unit
@@ -54,7 +64,8 @@ class Token:
 
 
 def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
-    """Return the parts of an expression, with signs of products. Raises ValueError."""
+    """Return the parts of an expression, with the sign of each product. Raises
+    ValueError for a name that is neither a variable nor a function nor a symbol."""
     found, place = list[Token](), 0
     text = re.sub(r"(?<=[A-Za-z])[²³]", lambda m: plain(m[0]), text.strip())
     is_call = False
@@ -128,7 +139,8 @@ def name_of(node: ast.Call) -> str:
 
 
 def dimension(node: ast.expr) -> int:
-    """Return how often a unit, named U, multiplies an expression. Raises ValueError."""
+    """Return how many units, here named U, an expression is multiplied with. Raises
+    ValueError where the terms of a sum differ."""
     if isinstance(node, ast.Name):
         return int(node.id in ("U", *STRESSES))
     if isinstance(node, ast.UnaryOp):
@@ -206,7 +218,8 @@ def in_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
 
 
 def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
-    """Return the value of an entry in its unit, or its word. Raises ValueError."""
+    """Return the value of an entry, a number, an expression or a word, in the unit of
+    the entry. Raises ValueError with what is wrong."""
     if re.fullmatch(NUMBER, text):
         return text
     word = re.fullmatch(rf"{NUMBER}\s*(.*?)(?:/m)?", text)

@@ -150,7 +150,8 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
 
 
 def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ...]]:
-    """Return the net area ratio that counts, and in words whence it is."""
+    """Return the net area ratio of the cone: the one given, or that of the file, and in
+    words which one it is where it has a choice."""
     of_file = test.area_ratio
     if given is not None or of_file is None or test.pore_pressure is None:
         return AREA_RATIO if given is None else given, ()
@@ -228,7 +229,8 @@ def check_soil(given: Sequence[Soil], end: float) -> None:
 
 
 def given_kinds(ground: Ground, tops: list[float], given: Sequence[Soil]) -> np.ndarray:
-    """Return the kind given of each row [n], "" for none. Raises InputError."""
+    """Return the kind of soil of each row [n] that is given, "" for none; what is given
+    of a part goes before what is given of all. Raises InputError."""
     found = np.full(len(ground.depth), "", dtype="<U4")
     for soil in sorted(given, key=lambda soil: soil.layer > 0 or soil.bottom < inf):
         top, bottom = soil.top, soil.bottom

@@ -30,4 +30,5 @@ class Method(Protocol):
     cases: tuple[str, str]
 
     def forces(self, h: float, case: str) -> Forces:
-        """Return the forces at an embedment (m) in a case, nan without an answer."""
+        """Return the forces at the embedment h (m) of the tip in one of the cases;
+        nan where the method has no answer at this embedment."""

@@ -62,7 +62,8 @@ def reverse_bearing(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
 
 
 def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
-    """Return the top of sand below the clay of the tip, or passed by it; or nan."""
+    """Return the top of the sand below the clay in which the tip is or, with the tip in
+    sand, below the clay that it has passed; nan without such sand or clay."""
     is_sand, tip = [not layer.strength for layer in layers], tip_layer(layers, h)
     if not is_sand[tip]:
         return min(

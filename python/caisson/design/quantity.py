@@ -62,7 +62,8 @@ def parts_of(text: str) -> list[str]:
 
 
 def refuse_tangent(text: str) -> None:
-    """Refuse an angle of friction that may be a tangent. Raises ValueError."""
+    """Refuse an angle of friction without a unit that is so small that it may be the
+    tangent. Raises ValueError with what to write."""
     if re.fullmatch(NUMBER, text) and 0 < (value := float(text)) < LEAST_ANGLE:
         angle = math.degrees(math.atan(value))
         raise ValueError(

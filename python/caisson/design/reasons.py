@@ -25,7 +25,8 @@ def text_of(value: float) -> str:
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:
-    """Return computed over method, upper to lower case, or an open end."""
+    """Return computed over method, from that of the upper to that of the lower case;
+    an end is open where the method has 0 or no answer."""
     if not computed > 0:
         return ""
     least = computed / high if math.isfinite(high) and high > 0 else None
@@ -42,7 +43,8 @@ def ratio_in_words(computed: float, low: float, high: float) -> str:
 
 
 def is_beyond(computed: float, low: float, high: float) -> bool:
-    """Return whether computed over method is beyond LIKE in both cases."""
+    """Return whether computed over method is beyond LIKE in both cases. A method may
+    have 0 (no suction is needed), or nan in its upper case (none suffices)."""
     if not computed > 0 or math.isnan(low):
         return False
     most = computed / low if low > 0 else math.inf
@@ -178,7 +180,8 @@ class ByCone(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """Means of horizontal over vertical stress on the walls of a run, and its ends."""
+    """Horizontal over vertical stress at rest on the walls of a run, means over them,
+    and its ends in the layers that the skirt reaches."""
 
     inner: float
     outer: float

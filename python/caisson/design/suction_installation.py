@@ -55,7 +55,8 @@ def plug_area(caisson: Caisson) -> float:
 def suction_without_flow(
     resistance: np.ndarray, weight: float, area: float
 ) -> np.ndarray:
-    """Return the suction (R - V') / A_i >= 0 [n] (Pa) of resistances [n] (N)."""
+    """Return the suction that bears what the weight does not, [n] (Pa), where no water
+    flows: (R - V') / A_i, at least 0. resistance: [n] (N)."""
     return np.maximum(resistance - weight, 0.0) / area
 
 

@@ -111,7 +111,8 @@ def chosen_meshes(
 
 
 def changes_of(entries: dict[str, str]) -> dict[str, tuple[dict[str, Any], float]]:
-    """Return what runs with other numerics change, and factors to the limit."""
+    """Return the runs with other numerics: what they change in the entries of the
+    scene, and the factor that extrapolates to the limit."""
     found: dict[str, tuple[dict[str, Any], float]] = {}
     tolerance = entries["Time/Inertia tolerance"]
     if tolerance != "none":

@@ -57,7 +57,8 @@ Errors = dict[str, np.ndarray]
 
 
 def quantities_of(history: Table) -> list[Quantity]:
-    """Return what a history has: forces that are not zero, and suction."""
+    """Return what a run with this history has: forces that are not zero throughout, as
+    friction without a wall, and suction if it acts."""
     return [q for q in FORCES + SUCTION if np.any(history.get(q.column(), 0))]
 
 
@@ -80,7 +81,8 @@ def relative(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
 def mesh_error_of(
     study: Study, names: Sequence[str], quantity: Quantity, depths: np.ndarray
 ) -> MeshError:
-    """Return the error of the run default by similar meshes, nan beyond their ends."""
+    """Return the error of the run called default, from these runs on similar meshes;
+    nan at the depths [n] that not all of them reach."""
     runs = [study.run(name) for name in names]
     sizes = [1 / refinement_of(run) for run in runs]
     values = np.array([values_of(run, quantity, depths) for run in runs])
@@ -122,7 +124,8 @@ def where_it_counts(term: dict[str, Any], depths: np.ndarray) -> np.ndarray:
 
 
 def term_errors(term: dict[str, Any], study: Study, depths: np.ndarray) -> Errors:
-    """Return errors of all quantities by a term, 0 elsewhere. Raises StudyError."""
+    """Return the errors of all quantities by one term, 0 where it does not count.
+    Raises StudyError where a run does not reach that far."""
     counts = where_it_counts(term, depths)
     errors = {}
     for quantity in quantities_of(study.run("default").results.history):
@@ -151,7 +154,8 @@ def combined(terms: Sequence[Errors]) -> Errors:
 def shift_to_limit(
     study: Study, depths: np.ndarray, quantity: Quantity
 ) -> dict[str, np.ndarray]:
-    """Return the column that leads to the limit of all meshes, if there are some."""
+    """Return the column that leads from the default mesh to the limit of all meshes, if
+    there are some; 0 where not all runs reach."""
     for names in (term["meshes"] for term in study.keys["errors"] if "meshes" in term):
         values = values_of(study.run("default"), quantity, depths)
         shift = mesh_error_of(study, names, quantity, depths).limit - values
@@ -241,7 +245,8 @@ def in_words(quantity: Quantity, below: float, above: float) -> str:
 def share_in_bar(
     study: Study, finest: StudyRun, names: Sequence[str], depths: np.ndarray
 ) -> dict[str, float]:
-    """Return the share of depths where the finest mesh lies in the bar of others."""
+    """Return the share of depths where the finest mesh lies in the bar of the others,
+    by quantity; nothing with less than two others."""
     others = [name for name in names if name != finest.name]
     if len(others) < 2 or "default" not in others:
         return {}
@@ -262,7 +267,8 @@ def share_in_bar(
 
 
 def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None:
-    """Print the order of the similar meshes, and the finest one as a test."""
+    """Print what the similar meshes say of themselves: their order, and the finest
+    one as the test of a bar that is made without it."""
     runs = [study.run(name) for name in names]
     if len(runs) < 3:
         print("Two meshes: nothing confirms the error by the mesh.\n")

@@ -186,7 +186,8 @@ class WindowedRun(Run):
         return Status.SUCCESS
 
     def write(self, results: Sequence[Results], of_scene: str) -> None:
-        """Write history.csv of the means, and run.json with the fingerprint."""
+        """Write history.csv without the suction, in which each mean is constant about
+        its depth, and run.json with the fingerprint of the scene."""
         absolute = {quantity.column() for quantity in SUCTION}
         columns = [name for name in results[0].history if name not in absolute]
         means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]

@@ -108,7 +108,8 @@ def force_of_run(state: State, name: str) -> float | None:
 
 
 def spread_of(force: float, stress: np.ndarray) -> np.ndarray:
-    """Return how a vertical force is spread over nodes, like the stress [n, 2]."""
+    """Return how a vertical force is spread over nodes: like that of the stress there,
+    [n, 2], or like the normal one where most of that has another sign."""
     spread = np.maximum(-stress[:, 1] * np.sign(force), 0)
     if spread.sum() < LEAST_SHARE * abs(force):
         spread = abs(stress[:, 0])

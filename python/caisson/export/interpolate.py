@@ -26,7 +26,8 @@ LINEAR = {"yield_stress_Pa", "vertical_yield_stress_Pa"}
 
 @dataclass
 class Neighbors:
-    """Points near places: numbers and weights [n, k] (0: none); layer: nearest [n]."""
+    """Points near some places: numbers and weights, [n, k]; a weight of 0 is no
+    neighbor. layer: that of the nearest point, [n]."""
 
     places: np.ndarray
     index: np.ndarray
@@ -35,7 +36,8 @@ class Neighbors:
 
 
 def hidden(places: np.ndarray, points: np.ndarray, wall: Wall) -> np.ndarray:
-    """Return whether the wall stands between places [n, 2] and points [n, k, 2]."""
+    """Return whether the wall stands between places [n, 2] and points [n, k, 2]: the
+    line between them crosses the middle of the wall above the tip."""
     r, z = places[:, np.newaxis, 0], places[:, np.newaxis, 1]
     across = (r - wall.middle) * (points[..., 0] - wall.middle) < 0
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -85,7 +87,8 @@ def is_poor(state: State, near: Neighbors) -> np.ndarray:
 
 
 def plane_weights(state: State, near: Neighbors) -> np.ndarray:
-    """Return the weights of neighbors [n, k] in the plane, or mean, at places."""
+    """Return what the value of each neighbor counts in the plane at the place:
+    [n, k], sum 1; of the mean where the points do not span a plane."""
     step = state.position[near.index] - near.places[:, np.newaxis]
     size = abs(step).max(axis=1, keepdims=True)
     basis = np.concatenate([np.ones((*step.shape[:2], 1)), step / size], axis=2)

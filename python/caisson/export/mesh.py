@@ -96,7 +96,8 @@ def steps(begin: float, end: float, spacing: float) -> np.ndarray:
 
 
 def surface_of(state: State, r: np.ndarray, spacing: float) -> np.ndarray:
-    """Return the height of the soil's surface at radii of one side of the wall (m)."""
+    """Return the height of the soil's surface at radii of one side of the wall (m):
+    that of the uppermost points, and what was above them at the start."""
     low, high = r.min(), r.max()
     inside = (state.position[:, 0] >= low) & (state.position[:, 0] <= high)
     size = np.sqrt(state.volume / (2 * np.pi * state.position[:, 0]))
@@ -149,7 +150,8 @@ def rising(shoulder: float, surface: np.ndarray, spacing: float) -> np.ndarray:
 
 
 def regular(state: State, window: Window) -> Mesh:
-    """Return the regular grid of a window. Raises ResultsError without a place."""
+    """Return the regular grid of a window. Above the tip its rows follow the surface of
+    the soil. Raises ResultsError where the window has no place."""
     wall, spacing = state.wall, window.spacing
     if wall is None:
         r = steps(0, window.radius, spacing)
@@ -218,7 +220,8 @@ def length_of_edges(mesh: Mesh) -> np.ndarray:
 
 
 def with_sets(mesh: Mesh, wall: Wall | None) -> Mesh:
-    """Set the nodes of sides, wall and surface. Raises ResultsError without a wall."""
+    """Set the nodes on the sides, on the wall and on the surface. Raises ResultsError
+    where a wall is in the ground and not in the mesh."""
     r, z = mesh.nodes.T
     edge = np.zeros(len(r), dtype=bool)
     edge[mesh.edges()] = True

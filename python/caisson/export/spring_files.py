@@ -68,7 +68,8 @@ def about_parts(found: Springs) -> str:
 
 
 def about_waves(found: Springs) -> list[str]:
-    """Return a warning where waves have not gone far enough, or may have not."""
+    """Return a warning where the waves have not gone far at the smallest displacement
+    whose stiffness is stated, or where this is not known."""
     reach, needed = found.reach_at_first, found.needed_reach
     first = 1e3 * SMALL[0] * found.diameter
     if reach >= needed or first > 1e3 * found.displacement[-1]:
@@ -123,7 +124,8 @@ def rows_of(found: Springs) -> np.ndarray:
 
 
 def beside(found: Springs, other: Springs, number: int) -> np.ndarray:
-    """Return the resistance of the other run's nearest spring [n] (Pa), or nan."""
+    """Return the resistance of the other run's nearest spring at the displacements
+    [n] (Pa); nan where it has none, or ends before."""
     mine = found.springs[number]
     near = [s for s in other.springs if s.place == mine.place]
     if not near:

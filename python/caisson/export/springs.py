@@ -121,7 +121,8 @@ class Springs:
 
     @property
     def growth(self) -> float:
-        """By what the last tenth of the motion raises the resistance."""
+        """By what the last tenth of the motion raises the resistance, over that at the
+        end; of a hyperbola it is a tenth of what the end lacks of the ultimate."""
         before = np.interp(0.9 * self.displacement[-1], self.displacement, self.force)
         end = float(self.force[-1])
         return 1 - float(before) / end if end > 0 else 0.0
@@ -135,7 +136,8 @@ class Springs:
 
 
 def last_motion(penetration: np.ndarray) -> tuple[int, int]:
-    """Return row and direction (1 down, -1 up) of the last motion, or raise."""
+    """Return the row [n] at which the last motion in one direction begins, and the
+    direction: 1 down, -1 up. Raises ResultsError where there is none."""
     steps = np.diff(penetration)
     moved = np.flatnonzero(abs(steps) > SAME)
     if not len(moved):
@@ -186,7 +188,8 @@ def segments_of(walls: Table, times: np.ndarray, depth: float) -> list[Segment]:
 
 
 def begin_of(force: np.ndarray) -> tuple[int, float]:
-    """Return row and share where the resistance [n] begins. Raises ResultsError."""
+    """Return the row and the share of the way to the next one at which the resistance
+    [n] begins. Raises ResultsError where that is at the end."""
     idle = np.flatnonzero(force <= 0)
     if not len(idle):
         return 0, 0.0
@@ -200,7 +203,8 @@ def begin_of(force: np.ndarray) -> tuple[int, float]:
 
 
 def speed_of_tolerance(run: LoadedRun) -> float:
-    """Return the speed (m/s) to which the inertia tolerance refers."""
+    """Return the speed (m/s) to which the inertia tolerance refers, the largest of the
+    velocity table, which the run need not reach."""
     history, entry = run.results.history, run.results.entry
     steps = np.diff(history["penetration_m"]) / np.diff(history["time_s"])
     speeds = [*abs(steps)]
@@ -253,7 +257,8 @@ def wave_velocity(run: LoadedRun, depth: float) -> float:
 
 
 def springs_of(run: LoadedRun, weight: float) -> Springs:
-    """Return the springs of the last motion under a weight (N). Raises ResultsError."""
+    """Return the springs of the last motion of a run, for a submerged weight (N) of
+    the caisson. Raises ResultsError where there are none."""
     history, scene = run.results.history, run.results.scene
     if "diameter_m" not in scene:
         raise ResultsError(f"{run.directory} is not a finished run of a caisson")

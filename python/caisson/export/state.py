@@ -131,7 +131,8 @@ class State:
         return self.forces.get("lid_force_N", 0.0) / (np.pi * self.wall.inner**2)
 
     def at_rest(self, z: np.ndarray) -> np.ndarray:
-        """Return the vertical stress at rest at heights [n] (m): [n] (Pa)."""
+        """Return the vertical stress of the ground before the body came, at heights
+        [n] (m), positive in compression: [n] (Pa)."""
         layers = sorted(self.layers, key=lambda layer: layer.top)
         tops = [layer.top for layer in layers]
         stress = np.full(len(z), self.surcharge)
@@ -141,7 +142,8 @@ class State:
 
 
 def wall_of(frame: Frame) -> Wall | None:
-    """Return the wall by the body or its cells, None above the surface."""
+    """Return the wall, from the body of the frame or else the cells that it fills;
+    None where no part of it is below the surface."""
     if frame.body is not None:
         from caisson.vtu import positions_of
 
@@ -158,7 +160,8 @@ def wall_of(frame: Frame) -> Wall | None:
 
 
 def forces_at(history: Table, time: float) -> dict[str, float]:
-    """Return the forces on the body at a time; none where all are zero."""
+    """Return the forces on the body at a time: the means of the row that contains it.
+    None where they are all zero, as in the first row."""
     times = history["time_s"]
     row = int(np.searchsorted(times, time - 1e-6 * max(1.0, time)))
     row = min(row, len(times) - 1)

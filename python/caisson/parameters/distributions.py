@@ -54,7 +54,8 @@ def is_number(value: object) -> bool:
 
 
 def numbers_of(name: str, given: Mapping[str, Any]) -> dict[str, float]:
-    """Return the keys of a distribution as numbers, with a standard deviation."""
+    """Return the keys of a distribution, all of them numbers that it takes, with a
+    standard deviation in the place of a coefficient of variation."""
     require(
         isinstance(name, str) and name in KEYS,
         f"distribution is {name!r}, not one of {', '.join(KEYS)}",

@@ -91,7 +91,8 @@ def levels(
 
 
 def effects_of(outcomes: Outcomes, depth: float | None) -> tuple[float, list[Effect]]:
-    """Return what effects are beside, and effects at a depth (m), largest first."""
+    """Return what effects are beside and the effects at a depth (m), the largest
+    first; nothing where the base has no result there, or no run counts."""
     if depth is None:
         return math.nan, []
     at = outcomes.matrix(np.array([depth]))[:, 0]

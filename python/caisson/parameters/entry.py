@@ -197,7 +197,8 @@ def read(name: str, given: Mapping[str, Any]) -> Parameter:
 
 
 def read_all(tables: object) -> list[Parameter]:
-    """Return parameters, formulas last and in order. Raises StudyError."""
+    """Return the parameters of a study by name, formulas after all others, in an
+    order in which they can be computed. Raises StudyError."""
     if not isinstance(tables, dict) or not tables:
         raise StudyError(
             'a study of parameters needs at least one [parameters."Section/Entry"]'

@@ -59,7 +59,8 @@ class Answers(NamedTuple):
 
 
 def answers_of(outcomes: Outcomes) -> Answers:
-    """Return what runs and methods say at common depths. Raises ResultsError."""
+    """Return what the complete runs and the methods say at common depths. Raises
+    ResultsError where a cone test of a run cannot be read."""
     runs = list(outcomes.complete)
     if len(outcomes.free) == 1:
         parameter = outcomes.free[0]
@@ -101,7 +102,8 @@ def depths_of_bars(deepest: float) -> np.ndarray:
 
 
 def draw_methods(axes: Axes, found: Answers, limit: float) -> None:
-    """Draw the range of each method as bars at some depths, up to a limit (kN)."""
+    """Draw the range of each method as a bar at some depths, side by side about them;
+    of what goes beyond the axis (kN) the end is written."""
     depths = depths_of_bars(float(found.depth[-1]))
     methods = [i for i in range(len(theory.METHODS)) if found.band(i) is not None]
     spread = SPREAD * float(np.diff([0.0, *depths]).min())

@@ -96,7 +96,8 @@ def correlations_of(study: Mapping[str, Any], names: Sequence[str]) -> np.ndarra
 
 
 def paired(shares: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Return columns of shares [n_samples, n], ordered for correlations [n, n]."""
+    """Return the columns of shares [n_samples, n_parameters], each in the order that
+    gives them these correlations [n_parameters, n_parameters]."""
     scores = stats.norm.ppf(shares)
     present = np.linalg.cholesky(
         np.corrcoef(scores, rowvar=False).reshape(wanted.shape)
@@ -124,7 +125,8 @@ def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sampl
 
 
 def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
-    """Return the base of a parameter: given, median or scene's. Raises StudyError."""
+    """Return the value of a parameter at the base: what it says, or the median of its
+    distribution, or the value of the scene. Raises StudyError."""
     if parameter.base is not None:
         if parameter.choices and parameter.base not in parameter.choices:
             raise StudyError(
@@ -193,7 +195,8 @@ def samples_of(
 def names_of(
     sampling: str, free: Sequence[Parameter], samples: list[Sample]
 ) -> list[str]:
-    """Return the names of the runs [n_samples], of their values where these are few."""
+    """Return the names of the runs [n_samples]. Those of a grid and of one parameter
+    at a time are made of values, so that a run keeps its name when others are added."""
     digits = len(str(len(samples)))
     numbers = [f"sample {i + 1:0{digits}}" for i in range(len(samples))]
     if sampling == LATIN:

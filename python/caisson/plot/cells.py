@@ -105,7 +105,8 @@ class CellMeans:
     def _meeting(
         result: np.ndarray, corners: np.ndarray, ends: np.ndarray
     ) -> np.ndarray:
-        """Let tops of cells at the surface (ends [n]) meet those of their neighbors."""
+        """Let the tops of cells at the surface meet where neighbors have a side in
+        common that is not much higher at one of them. ends: those cells [n]."""
         height = corners[ends, 3, 1] - corners[ends, 0, 1]
         by_left = {round(float(corners[i, 0, 0]), 6): k for k, i in enumerate(ends)}
         for k, i in enumerate(ends):
@@ -119,7 +120,8 @@ class CellMeans:
         return result
 
     def at_corners(self, means: np.ndarray) -> np.ndarray:
-        """Return a field at the corners [n_used, 4] by means of cells [n_used]."""
+        """Return a field at the corners of the polygons [n_used, 4]: the mean of the
+        cells [n_used] that meet there and have a value."""
         corner = np.round(self.polygons.reshape(-1, 2), 6)
         node = np.unique(corner, axis=0, return_inverse=True)[1].ravel()
         known = np.repeat(np.isfinite(means), 4)
@@ -129,7 +131,8 @@ class CellMeans:
         return found[node].reshape(-1, 4)
 
     def of(self, values: np.ndarray) -> np.ndarray:
-        """Return the means of a field [n_points] by volume, nan without a value."""
+        """Return the means of a field [n_points] over the polygons, by volume. Points
+        at which it is nan are left out; nan where there is no other."""
         n, known = len(self.total), np.isfinite(values)
         if known.all():
             return self._sum(self.volume * values, n)[self.used] / self.total[self.used]

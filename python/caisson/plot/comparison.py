@@ -39,7 +39,8 @@ Histories = dict[str, Table]  # by the name of the run
 
 
 def pushing_force(history: Table) -> np.ndarray:
-    """Return what pushes the body besides the suction (N), negative in a pull."""
+    """Return what pushes the body besides the suction, in N, negative where it
+    pulls: the force of the soil less that of the water on lid and tip."""
     force = history[TOTAL]
     if "suction_force_N" in history:
         force = force - history["suction_force_N"] + history["tip_water_force_N"]
@@ -72,7 +73,8 @@ def read(directories: Sequence[Path]) -> Histories:
 
 
 def panels_of(histories: Histories) -> dict[str, Table]:
-    """Return the curves by panel and run: required suctions, and forces."""
+    """Return the curves of each panel by its axis and the name of the run: the
+    required suctions, where suction draws bodies down, and the forces."""
     suctions = {
         name: np.maximum(history[design.SUCTION], 0) / 1e3
         for name, history in histories.items()
@@ -116,7 +118,8 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
 
 
 def quantities_of(history: Table) -> Table:
-    """Return the columns [n_rows] of one run that are not 0 throughout."""
+    """Return the columns [n_rows] of the file of one run: all forces, suctions and
+    the pressure on a cylinder, but those that are 0 throughout."""
     found = {PUSHING: pushing_force(history)} if "suction_force_N" in history else {}
     forces = (name for name in history if name.endswith("_N"))
     for name in [TOTAL, *forces, *MORE]:
@@ -126,7 +129,8 @@ def quantities_of(history: Table) -> Table:
 
 
 def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the rows of the ways down and up by name, without their first."""
+    """Return the rows of the way down and of the way up by the name of the run, the
+    latter marked where there are both; without those where they begin."""
     down, up = curves.way_down(depth)[1:], curves.way_up(depth)[1:]
     if not len(up):
         return {name: down}

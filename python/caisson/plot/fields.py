@@ -179,7 +179,8 @@ def boundary_now(
 
 
 def draw_layers(axes: Axes, frame: Frame) -> None:
-    """Draw the boundaries between layers as they are now, not beside a wall."""
+    """Draw the boundaries between layers where they are now, for all colors; not at a
+    wall that has passed, which has dragged a skin of soil with it."""
     edges = np.unique(frame.means.polygons[:, :2, 0])
     move = frame.soil["displacement"]
     for top in frame.tops:

@@ -56,14 +56,16 @@ class Flow:
         return result, np.minimum(width, np.maximum(top - bottom, 0.2 * width))
 
     def pieces(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return radii and widths of pieces of the columns of cells."""
+        """Return the radii of the middles of some pieces of each column of cells, from
+        the axis outward, and the widths of the pieces."""
         lines = np.unique(np.round(self.corners[:, :2, 0], 6))
         share = np.arange(PIECES) / PIECES
         ends = np.append(lines[:-1, None] + np.diff(lines)[:, None] * share, lines[-1])
         return (ends[:-1] + ends[1:]) / 2, np.diff(ends)
 
     def mudline(self, body: np.ndarray) -> list[np.ndarray]:
-        """Return parts of the mudline [n, 2] between cells of a body [n, 4, 2]."""
+        """Return the parts of the mudline, each [n, 2], from the axis outward, between
+        which a body stands in the soil. body: its cells [n, 4, 2]."""
         r, width = self.pieces()
         cell = cell_of(np.column_stack([r, np.full(len(r), np.inf)]), self.corners)
         xi, _, top = self.heights(cell, r)
@@ -78,7 +80,8 @@ class Flow:
         return np.split(place, np.flatnonzero(gap) + 1)
 
     def starts(self, n: int, level: float, radius: float) -> np.ndarray:
-        """Return places [n, 2] at a level that share the water within a radius."""
+        """Return places [n, 2] at a level, within a radius, in the middles of n equal
+        shares of the water that rises there, or that sinks where more does."""
         r, width = self.pieces()
         r, width = r[r < radius], width[r < radius]
         place = np.column_stack([r, np.full(len(r), level)])

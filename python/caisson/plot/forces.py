@@ -234,7 +234,8 @@ def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> st
 
 
 def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
-    """Return the figure of a body that penetrates, with methods if there are any."""
+    """Return the figure of a body that penetrates; a panel of all methods is added
+    where there is one besides Houlsby and Byrne."""
     site = theory.site_of(run)
     answers = theory.answers_to(site, max(depth.max(), 0))
     with_methods = not has_suction(run) and any(map(has_line, answers[1:]))

@@ -19,7 +19,8 @@ LINE = {"color": "0.1", "linewidth": 0.9, "zorder": 2}
 
 
 def style_of(low: float, high: float) -> fields.Style:
-    """Return colors for pressures: blue below 0, red above, and white at 0."""
+    """Return colors for pressures from low to high: blue below that of the open
+    water, red above it, and white where both are the same."""
     most = max(-low, high)
     low = -fields.nice_above(-low) if -low > 0.02 * most else 0.0
     high = fields.nice_above(high) if high > 0.02 * most or low == 0 else 0.0

@@ -115,7 +115,8 @@ def columns_of(history: Table, name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> list[str]:
-    """Draw limits [n] (kPa) at depths [n] (m); return those out of the range."""
+    """Draw the limits of the suction [n] (kPa) at depths [n] (m), each by its factor,
+    over their least; return those that are out of the range, in words."""
     factors, beyond = limits.factors_of(run), list[str]()
     for name, limit in found.items():
         label, known = limits.with_factor(name, factors[name]), limit[limit < np.inf]
@@ -188,7 +189,8 @@ def draw_gradients(axes: Axes, run: Results) -> None:
 
 
 def draw_heave(axes: Axes, run: Results) -> None:
-    """Draw the heave of the plug, and write the seepage at the end."""
+    """Draw the heave of the plug and write the seepage at the end; what a pump takes
+    besides depends on the rate of penetration, and a run is faster than a caisson."""
     history = run.history
     axes.plot(
         history["plug_heave_m"],

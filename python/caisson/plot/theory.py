@@ -205,7 +205,8 @@ CONE_NEEDED = "a cone test is needed (--cpt FILE)"
 
 
 def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
-    """Return the cone test, or an assumed one (0 in clay). Raises NotApplicable."""
+    """Return the cone test or, without one, what is assumed for sand down to a depth
+    (m). with_clay: none is needed there. Raises NotApplicable."""
     if site.cone is not None:
         return site.cone
     sands = list[Sand]()
@@ -458,7 +459,8 @@ def answers_to(site: Site, deepest: float) -> list[Answer]:
 
 
 def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
-    """Return (methods, why they say nothing), each reason once."""
+    """Return (methods, why they say nothing), each reason once. That the method of clay
+    is not for sand, of which another one has an answer, needs no words."""
     found: dict[str, list[str]] = {}
     is_sand = any(answer.forces for answer in answers if answer.method.key != "clay")
     for answer in answers:

@@ -25,7 +25,8 @@ AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
 
 
 def shown_times(walls: Table, wanted: Sequence[float] = ()) -> np.ndarray:
-    """Return the times to draw, MOST_FRAMES at most, the last among them."""
+    """Return the times to draw, MOST_FRAMES at most: of the penetrations that the scene
+    asks for (m), or evenly, and the last."""
     times = np.unique(walls["time_s"])
     depths = [walls["penetration_m"][walls["time_s"] == time][0] for time in times]
     near = [int(np.argmin(np.abs(np.array(depths) - goal))) for goal in wanted]

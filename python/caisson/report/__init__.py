@@ -17,7 +17,8 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 def write(directory: Path, rate: float | None = None) -> Path:
-    """Write the report, with a pump for a rate (m/h); return its path."""
+    """Write the report of a run, with a pump for a rate of penetration (m/h), or an
+    assumed one; return its path. Raises ResultsError."""
     from caisson.report import page, verdict
     from caisson.report.installation import Rate
 

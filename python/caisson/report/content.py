@@ -82,7 +82,8 @@ def own(
 
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
-    """Return the design methods (kN) over depth (m); nothing with suction."""
+    """Return the design methods (kN) over depth (m), at first tip and total by Houlsby
+    & Byrne; nothing with suction, as they are forces of jacking."""
     found: list[Curve] = []
     if forces.has_suction(run):
         return found
@@ -157,7 +158,8 @@ def method_suctions(run: Results) -> list[Curve]:
 
 
 def limit_curves(found: Installation, bottom: float) -> list[Curve]:
-    """Return limits of the suction and marks of rest and lid above a bottom (m)."""
+    """Return the limits of the suction, the least of them where suction is needed, and
+    where the caisson rests; the depth of the lid where it is above a bottom (m)."""
     most, depth = float(found.required.max()), found.depth
 
     def across(label: str, color: str, place: float) -> Curve:
@@ -196,7 +198,8 @@ def axis_end(shown: list[Curve]) -> float:
 
 
 def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
-    """Return limits beyond the axis or absent, and the lid below a bottom (m)."""
+    """Return which limits are beyond the axis of the curves, or are none, and the depth
+    of the lid where it is below a bottom (m), in sentences."""
     words, end = [], axis_end(shown)
     factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
     for name, values in found.limits.items():

@@ -285,7 +285,8 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
 
 
 def rest_in_words(run: Results, rest: float) -> str:
-    """Return the penetration by weight, or that it is at most that of the start."""
+    """Return the penetration by weight: at most that of the start where the resistance
+    only builds up below it, within half a wall thickness."""
     begin = float(run.history[DEPTH][0])
     thickness = float(run.scene.get("wall_thickness_m") or 0)
     if rest - begin < thickness / 2:

@@ -195,7 +195,8 @@ def kind_of(run: Results, layer: Layer) -> str:
 
 
 def drainage_of_run(run: Results) -> str:
-    """Return how the water was computed: "undrained clay (total stress)"."""
+    """Return how the water of all layers was computed, in words: "undrained clay (total
+    stress)"; "sand drained, clay undrained (total stress)"."""
     kinds = dict.fromkeys(kind_of(run, x) for x in layers_of(run.scene))
     if len(kinds) == 1:
         kind, _, how = next(iter(kinds)).partition(", ")

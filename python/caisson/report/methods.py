@@ -105,7 +105,8 @@ def beside(
     what: str = "",
     last: dict[str, Any] = {},
 ) -> dict[str, Any]:
-    """Return a table of a run (N or Pa) beside methods, between columns and last."""
+    """Return a table of what a run has (N or Pa), if it has this, and methods say
+    behind other columns, and last ones. what: before the names of methods."""
     if computed is not None:
         columns["computed"] = computed / 1e3
     for method in methods:
@@ -243,7 +244,8 @@ def why_of(run: Results, at: np.ndarray) -> str:
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
-    """Return a sentence for each method that the run is not like, at a depth (m)."""
+    """Return a sentence for each method that the run is not like, at a depth (m), of
+    which answers have the forces of jacking."""
     at = np.array([h])
     if (computed := computed_at(run, h)) is None:
         return []

@@ -126,7 +126,8 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
 def warnings_of(
     summary: dict[str, Any], end: float | None = None
 ) -> dict[str, list[str]]:
-    """Return the warnings by rank, above the end of suction (m)."""
+    """Return the warnings by their rank, without those about what is deeper than the
+    end of suction (m); older files have no ranks, so that all count."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     ranked = (summary.get("results") or {}).get("warnings")
     if ranked is None:

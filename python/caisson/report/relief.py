@@ -58,7 +58,8 @@ def adopt(jacked: Path, directory: Path) -> None:
 
 
 def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:
-    """Return the columns of the table at depths [n] (m), and what they mean."""
+    """Return the columns of the table at depths [n] (m) where there is suction, and
+    what they mean; nothing without suction, or where no critical one is known."""
     history, path = run.history, run.directory / NAME
     found = suction_methods.answers_of(theory.site_of(run), at).suctions
     rest = rest_of_run(history)

@@ -174,7 +174,8 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
 
 
 def of_run(run: Results, depth: float, rest: float | None) -> str:
-    """Return the section at a depth (m), with the rest by weight (m); or nothing."""
+    """Return the section with the tip at a depth (m), and where the caisson rests by
+    its weight (m); nothing for other bodies than caissons."""
     scene, shown = run.scene, run.shown
     if not scene.get("diameter_m") or not scene.get("wall_thickness_m"):
         return ""

@@ -218,7 +218,8 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
 
 
 def keep(run: Results) -> str:
-    """Write verdict, end of suction and limits into run.json; return the verdict."""
+    """Write the verdict of a run that has ended into its run.json, with the depth where
+    suction ends and the limits over depth; return it."""
     found, path = verdict_of(run), run.directory / "run.json"
     if run.is_running or not found.text:
         return found.text

@@ -171,7 +171,8 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
 
 
 def refuse_quick_clay(layers: Sequence[Layer]) -> None:
-    """Refuse clay with a quick strength where water flows. Raises SuggestError."""
+    """Refuse clay with the strength of a quick test where water flows: it would flow
+    through it as through sand. Raises SuggestError."""
     for i, layer in enumerate(layers, 1):
         if walls.is_quick_clay(layer):
             raise SuggestError(
@@ -288,7 +289,8 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
-    """Return a study of five angles or densities, clay in step. Raises SuggestError."""
+    """Return a study with five friction angles or densities of each layer, clay in
+    step. Raises SuggestError where a layer has neither."""
     sands = [layer for layer in layers if not clay.is_undrained(layer)]
     by_density = bool(sands) and all(map(walls.is_by_density, sands))
     quantity = "relative density" if by_density else "friction angle"
@@ -434,7 +436,8 @@ def said_of(text: str, file: Path, copy: Path, said: str) -> str:
 
 
 def cost_of(file: Path, text: str) -> str:
-    """Return what the program says of a scene and its cost. Raises SuggestError."""
+    """Return what the program says of a scene, which is going to be this file, and of
+    its cost. Raises SuggestError where it refuses it."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, file.name)
         copy.write_text(text, encoding="utf-8")

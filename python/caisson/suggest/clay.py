@@ -90,7 +90,8 @@ def wet_weight_of(strength: float, total_stress: float) -> float:
 
 @dataclass(frozen=True)
 class Reach:
-    """Depths (m) of a layer: top, middle of the reach, bottom; above: sigma'_v (Pa)."""
+    """Where a layer counts: depths of its top, of the middle of what the skirt reaches,
+    and of its bottom (m); above: sigma'_v at its top (Pa)."""
 
     top: float
     middle: float

@@ -152,7 +152,8 @@ def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
 
 
 def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
-    """Return the layers of a scene; law: of sand. Raises SuggestError."""
+    """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
+    name of sand.LAWS or sand.ONE_ANGLE. Raises SuggestError."""
     refuse_silt(found, end)
     refuse_no_strength(found)
     return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]

@@ -22,7 +22,8 @@ class Entry:
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer of soil from top (m) on; warning: a doubt, or ""."""
+    """A layer of soil from top (m below the surface) down to the next one; warning:
+    what is doubtful in what was given, "" if nothing is."""
 
     top: float
     entries: list[Entry]

@@ -92,7 +92,8 @@ def is_by_density(given: Mapping[str, str]) -> bool:
 
 
 def sand_of(given: Mapping[str, str], law: str) -> list[Entry]:
-    """Return the entries of sand: given and assumed ones. Raises SuggestError."""
+    """Return the entries of a layer of sand: those given, and what is assumed. law: a
+    name of LAWS, for a layer that has none. Raises SuggestError."""
     rest = dict(given)
     law = rest.pop("Law", LAWS[law])
     if law not in LAWS.values():

@@ -245,7 +245,8 @@ def as_given(_: float, texts: dict[str, str]) -> Given:
 def layer_of(
     text: str, known: Mapping[str, str], law: str, change: Change = as_given
 ) -> Layer:
-    """Return a layer; known: units of entries, law: of sand. Raises SuggestError."""
+    """Return a layer. known: the units of all entries of a layer by their names; law:
+    of sand by its density, a name of sand.LAWS. Raises SuggestError."""
     top, rest = head_of(text)
     texts, factors = change(top, texts_in(rest, known))
     given = values_in(texts, known, factors)
@@ -378,7 +379,8 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
 def layers_of(
     texts: Iterable[str], known: Mapping[str, str], law: str, change: Change = as_given
 ) -> list[Layer]:
-    """Return all layers; change: of what is given, before. Raises SuggestError."""
+    """Return all layers. law: of sand by its density; change: what is given of each of
+    them, before it is read. Raises SuggestError."""
     layers = [layer_of(text, known, law, change) for text in texts]
     tops = [layer.top for layer in layers]
     if tops[:1] != [0.0]:
