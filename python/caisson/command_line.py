@@ -35,7 +35,8 @@ TRACEBACK = "CAISSON_TRACEBACK"
 
 
 def words_on(error: Exception) -> str:
-    """Return in one line which files were read, and where they were not understood."""
+    """Return in one line what a file has led to: which files were read, and where the
+    program did not understand them."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     kind = type(error).__name__
     text = disk.one_line(f"{kind}: {error}" if str(error) else kind)[:200]
@@ -63,7 +64,8 @@ def help_of(groups: Groups) -> str:
 
 
 class Parser(argparse.ArgumentParser):
-    """Says in a line what is wrong, with the nearest option, and does not list all."""
+    """Says in a line what is wrong, with the nearest option to one that is not known,
+    and not all options beside it."""
 
     def error(self, message: str) -> NoReturn:
         """End the process."""

@@ -27,7 +27,8 @@ Commands = Mapping[str, tuple[str, str]]
 
 
 def options_of(command: str, commands: Commands) -> dict[str, list[str]]:
-    """Return the options of a command with their choices; of `run` all."""
+    """Return the options of a command, each with its choices; of `run` also those of
+    the program, if there is one."""
     module = importlib.import_module(commands[command][0])
     parser = argparse.ArgumentParser(prog=f"caisson {command}")
     module.add_arguments(parser)

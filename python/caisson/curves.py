@@ -22,7 +22,8 @@ FROM = 1.0  # m, of roughness and energy ratio: the start is left out
 
 
 def window_of(way: float) -> float:
-    """Return the width of the window on a way (m): a quarter of a short one."""
+    """Return the width of the window on a way of this length (m): a quarter of a short
+    one."""
     return min(FORCE_WINDOW, way / 4)
 
 
@@ -121,7 +122,8 @@ def way_down(position: np.ndarray) -> np.ndarray:
 
 
 def way_up(position: np.ndarray) -> np.ndarray:
-    """Return the rows, from the deepest on, that are less deep than all between."""
+    """Return the numbers of the rows, from the deepest on, that are less deep than
+    all between it and them."""
     deepest = int(np.argmax(position))
     return deepest + way_down(-position[deepest:])
 
@@ -136,7 +138,8 @@ def main_way(position: np.ndarray) -> np.ndarray:
 
 
 def common_depths(positions: Sequence[np.ndarray], interval: float) -> np.ndarray:
-    """Return the multiples of the interval (m) that one of curves [n_rows] passes."""
+    """Return the multiples of the interval (m) that at least one of the curves, each
+    [n_rows], passes."""
     low = min(float(position.min()) for position in positions)
     high = max(float(position.max()) for position in positions)
     first = math.ceil(low / interval - 1e-6)
@@ -152,7 +155,8 @@ def down_to(end: float | None, depths: np.ndarray) -> np.ndarray:
 
 
 def round_depths(position: np.ndarray) -> np.ndarray:
-    """Return each meter, or finer step of a short curve, that a curve passes."""
+    """Return each meter that a curve passes, or finer steps of a short one; none of
+    a curve that stays where it is."""
     span = float(np.ptp(position))
     if span == 0:
         return np.empty(0)
@@ -168,7 +172,8 @@ def path_of(position: np.ndarray) -> np.ndarray:
 
 
 def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Return the mean in the window of path about each row: [n], nan at the ends."""
+    """Return the mean in the window of travelled path about each row: [n]. The
+    first and the last half window are nan."""
     path = path_of(position)
     return window_means(path, values, path, width)
 
@@ -208,7 +213,8 @@ def gradient_share(history: Table) -> np.ndarray:
 
 
 def forces_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
-    """Return the means of a column on the way down at depths [m] (m): [m], or nan."""
+    """Return the means of a column on the way down at some depths [m] (m): [m]. nan
+    where the window is not whole."""
     rows = way_down(history["penetration_m"])[1:]
     depth = history["penetration_m"][rows]
     width = window_of(float(np.ptp(depth))) if len(depth) else FORCE_WINDOW

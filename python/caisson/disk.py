@@ -32,7 +32,8 @@ _waiting: dict[Path, bytes] | None = None  # what all_or_none() is going to writ
 
 
 def read_bytes(path: Path, refuse: Refusal = InputError) -> bytes:
-    """Return the content of a file. Raises the kind of InputError to refuse with."""
+    """Return the content of a file. Raises what refuse says: InputError or one of its
+    kind."""
     if path not in read_last:
         read_last.append(path)
     try:
@@ -47,7 +48,8 @@ def read_bytes(path: Path, refuse: Refusal = InputError) -> bytes:
 
 
 def read_text(path: Path, refuse: Refusal = InputError) -> str:
-    """Return a text in UTF-8. Raises what refuse says, with the line of a bad byte."""
+    """Return the text of a file in UTF-8. Raises what refuse says, with the line of the
+    first byte that is none."""
     data = read_bytes(path, refuse)
     try:
         return data.decode("utf-8-sig")
@@ -65,7 +67,8 @@ def in_one_line(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """Return a text of a user as a remark or a line on the terminal needs it."""
+    """Return a text of a user as a remark in a file or a line on the terminal needs
+    it."""
     return in_one_line(text).strip()
 
 
@@ -100,7 +103,8 @@ def _write_beside(path: Path, data: bytes) -> None:
 
 
 def write(path: Path, content: str | bytes) -> Path:
-    """Write a file whole or not at all; return its path. Raises OSError."""
+    """Write a file whole, or leave what was there; return its path. Raises OSError,
+    which names the file."""
     data = content
     if isinstance(data, str):
         data = data.encode("utf-8", errors="backslashreplace")
@@ -117,7 +121,8 @@ def write(path: Path, content: str | bytes) -> Path:
 
 
 def save(figure: Any, path: Path, dpi: int = 150) -> Path:
-    """Write a figure of matplotlib in the format of its name; return the path."""
+    """Write a figure of matplotlib, in the format that its name ends with; return the
+    path."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format=path.suffix[1:] or "png", dpi=dpi)
     return write(path, buffer.getvalue())
@@ -160,7 +165,8 @@ def all_or_none(overwrite: bool) -> Iterator[None]:
 
 
 def keep(path: Path, content: str | bytes) -> Path:
-    """Write a file into a run; another one of this name goes to the next earlier_N."""
+    """Write a file into the directory of a run; another one of this name goes to the
+    next earlier_N there. Returns its path."""
     data = content.encode("utf-8") if isinstance(content, str) else content
     if path.is_file() and path.read_bytes() != data:
         found = map(EARLIER.fullmatch, os.listdir(path.parent))

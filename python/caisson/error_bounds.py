@@ -98,7 +98,8 @@ def adopt(directory: Path, bar: Path | None = None) -> None:
 
 
 def is_of(run: Results, bar: Path) -> bool:
-    """Return whether a bar is of the parameters of a run. Raises ResultsError."""
+    """Return whether an error bar was computed for the parameters of a run. Raises
+    ResultsError where it cannot be read."""
     text = disk.read_text(bar, ResultsError)
     found = re.search(r"^# fingerprint: (\S+)", text, re.M)
     return found is not None and found[1] == run.summary.get("fingerprint")
@@ -123,7 +124,8 @@ def is_inside(bar: Table, depth: np.ndarray) -> np.ndarray:
 
 
 def bounds_of(history: Table, bar: Table) -> Table:
-    """Return the rows of a history that a bar covers: values and their bounds."""
+    """Return the rows of a history within the depths of an error bar: of each of its
+    quantities the values and their bounds."""
     rows = is_inside(bar, history[DEPTH])
     depth = history[DEPTH][rows]
     found = {DEPTH: depth}
@@ -135,7 +137,8 @@ def bounds_of(history: Table, bar: Table) -> Table:
 
 
 def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
-    """Return the bounds of means [n] at depths [n], nan beyond the bar; or nothing."""
+    """Return the bounds of means [n] of a run at depths [n], nan beyond its error bar;
+    empty without one."""
     if not (run.directory / NAME).is_file():
         return {}
     bar = read_table(run.directory / NAME)

@@ -144,7 +144,8 @@ def rest_of_run(history: Table) -> float | None:
 
 
 def sinks_on(history: Table) -> list[tuple[float, float]]:
-    """Return the ways (m) on which the caisson sinks on by its weight again."""
+    """Return the ways (m) below the penetration by weight over which the weight
+    suffices again: there the caisson sinks on by itself."""
     changes = [*changes_of_suction(history), float(history[DEPTH][-1])]
     return list(zip(changes[1::2], changes[2::2]))
 
@@ -199,7 +200,8 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=16)
 def results_of(run: Results) -> dict[str, Any]:
-    """Return the results by name (doc/how_to/results.md); empty without forces."""
+    """Return the results of a run, by names that the manual lists
+    (doc/how_to/results.md); empty of a run without forces."""
     history = run.history
     if TOTAL not in history:
         return {}

@@ -48,7 +48,8 @@ class Frame:
         penetration: float,
         files: dict[str, list[Path]],
     ) -> None:
-        """files: of each of the series "grid", "points" and "body" there is."""
+        """files: of each of the series "grid", "points" and "body" that the run has
+        written at this time."""
         self.directory, self.index = directory, index
         self.time, self.penetration = time, penetration
         self._files = files
@@ -86,7 +87,8 @@ class Frame:
 
     @functools.cached_property
     def body(self) -> Any:
-        """The section of the body: a vtkUnstructuredGrid of polygons, or None."""
+        """The section of the body: a vtkUnstructuredGrid of polygons; None in a run
+        without a body."""
         return self._read("body") if "body" in self._files else None
 
     @functools.cached_property

@@ -100,7 +100,8 @@ class LoadedRun:
 
     @functools.cached_property
     def frames(self) -> list[Frame]:
-        """All frames in order. A file is read when a field is asked for."""
+        """All frames in their order. Their files are read only when a frame is asked
+        for its fields."""
         series = {name: dict(self.results.frames(name)) for name in ("grid", "points")}
         series["body"] = dict(self.results.frames("body"))
         times = sorted({time for files in series.values() for time in files})

@@ -5,7 +5,8 @@ from pathlib import Path
 
 
 def is_locked(directory: Path) -> bool:
-    """Return whether a run computes in the directory, as far as locks can tell."""
+    """Return whether a run computes in the directory; no, where the file system has no
+    locks."""
     try:
         with (directory / ".lock").open(encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)

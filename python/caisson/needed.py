@@ -54,14 +54,16 @@ def missing() -> dict[str, str]:
 
 
 def sentence(found: dict[str, str], group: str) -> str:
-    """Return in one line what is missing, and which command installs it."""
+    """Return in one line what is missing, with its packages, and which command installs
+    it: that of a group of scripts/setup."""
     packages = " ".join(sorted(set(found.values())))
     how = f"apt-get install {packages}" if INSTALLED else f"scripts/setup {group}"
     return f"{', '.join(found)} missing: `{how}` installs what is needed"
 
 
 def complaint() -> str:
-    """Return in one line what is missing and what installs it, else nothing."""
+    """Return in one line what is missing and which command installs it, nothing where
+    all is there."""
     found = missing()
     return sentence(found, "pictures") if found else ""
 

@@ -33,7 +33,8 @@ PROGRAM = find_program()
 
 
 def version() -> str:
-    """Return the version of the project, also of an installation."""
+    """Return the version of the project: pyproject.toml has it, also that of an
+    installation."""
     file = ROOT / "pyproject.toml"
     if file.is_file():
         project = tomllib.loads(file.read_text(encoding="utf-8"))["project"]
@@ -42,7 +43,8 @@ def version() -> str:
 
 
 def short(path: Path) -> str:
-    """Return the path as seen from the project's folder or the results."""
+    """Return the path as seen from the project's folder, or from that of the results
+    of an installation, if it lies there."""
     path = path.resolve()
     for folder in (ROOT, WORK):
         if path.is_relative_to(folder):

@@ -99,7 +99,8 @@ class Progress:
 
     @property
     def scale(self) -> float:
-        """Time taken over time expected of the runs that ended, else 1."""
+        """The time that runs take over the time that was expected of them; 1 before one
+        has ended."""
         expected = sum(self.expected[i] for i in self.took)
         return sum(self.took.values()) / expected if expected else 1.0
 
@@ -138,7 +139,8 @@ class Progress:
             self.stream.flush()
 
     def _draw(self) -> None:
-        """Draw the bar, or say in a line what is new."""
+        """Write the bar over the last one, or a line where there is something to say
+        that is new."""
         if not self.has_bar:
             share, text = self.words()
             now = time.monotonic()

@@ -86,7 +86,8 @@ class Results:
 
     @functools.cached_property
     def history(self) -> Table:
-        """Forces, energies and counts, as far as the scene has them: means of rows."""
+        """Forces, energies and counts; a row is the mean since the row before. Columns
+        of what a scene lacks are absent."""
         found = self.table("history.csv", "time_s")
         for name in ("time_s", "penetration_m"):
             if not np.isfinite(found.get(name, 0.0)).all():
@@ -121,7 +122,8 @@ class Results:
 
     @functools.cached_property
     def error_bounds(self) -> Table:
-        """Lower and upper bounds of forces; empty without an error bar."""
+        """Lower and upper bounds of forces; empty where there are none, as in a run
+        that ended above the depths of its error bar."""
         path = self.directory / "history_error.csv"
         if not path.is_file() or len(disk.read_text(path, ResultsError).split()) < 2:
             return {}
@@ -177,7 +179,8 @@ class Results:
 
     @property
     def feasible_to(self) -> float | None:
-        """The depth where suction ends (m), None without such a verdict."""
+        """The depth where suction ends (m), by the verdict in run.json; None without
+        one, or where suction does not end."""
         return self.known.get("feasible_to_m")
 
     @property
@@ -201,7 +204,8 @@ class Results:
 
     @property
     def is_running(self) -> bool:
-        """Whether the run has not ended yet, or was killed."""
+        """Whether the run has not ended yet, or was killed: run.json is missing, or
+        is that of a run in progress."""
         if not (self.directory / "run.json").is_file() or is_locked(self.directory):
             return True
         return self.summary.get("status") == "running"
@@ -222,7 +226,8 @@ class Results:
         return {check["check"]: check for check in self.check_list}
 
     def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
-        """Return [(time, [files])] of a series in order, of files that are there."""
+        """Return [(time, [files])] of points.pvd or grid.pvd, in order; files
+        that are gone, as of a run that was stopped, are left out."""
         path = self.directory / f"{series}.pvd"
         if not path.is_file():
             return []

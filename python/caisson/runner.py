@@ -91,7 +91,8 @@ def environment() -> dict[str, str]:
 
 
 def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
-    """Return what the program says without a run. Raises RunError if it refuses."""
+    """Return what the program says without a run, as with --validate. Raises RunError
+    with that where it refuses the input."""
     done = subprocess.run(
         [str(program), *arguments],
         text=True,
@@ -225,7 +226,8 @@ class Run:
 
     @functools.cached_property
     def key(self) -> str:
-        """A hash of what the result depends on. Raises RunError."""
+        """A hash of what the result depends on. Raises RunError where the program
+        refuses the input."""
         entries = read_parameters(self.arguments(), self.program)
         entries.pop("Output/Directory")
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
@@ -236,7 +238,8 @@ class Run:
         return {entry: in_words(value) for entry, value in self.entries.items()}
 
     def completion_record(self) -> dict[str, Any] | None:
-        """Return what a finished run has left in RECORD, or None."""
+        """Return what a finished run has left: key, entries, status, wall_s and
+        cpu_s. None where there is none, or a broken one."""
         try:
             found = json.loads((self.directory / self.RECORD).read_text("utf-8"))
         except (OSError, ValueError, RecursionError):

@@ -78,7 +78,8 @@ def units_for(force: float, stress: float, length: float) -> Units:
 
 
 def units_of(history: Mapping[str, Any], scene: Mapping[str, Any]) -> Units:
-    """Return the units of a run, from its history and scene."""
+    """Return the units of a run, from the columns of its history and what run.json says
+    of the body."""
 
     def largest(name: str) -> float:
         values = np.abs(history.get(name, np.full(1, np.inf)))

@@ -140,7 +140,8 @@ class StudyRun:
 
     @property
     def status(self) -> Status | None:
-        """The exit status of the finished run, or None."""
+        """The exit status of the finished run; without one None, and trouble says
+        why."""
         record = self.run.completion_record()
         if record is None:
             self.trouble = self.trouble or f"no result in {self.run.directory}"
@@ -330,7 +331,8 @@ def read_toml(file: Path) -> dict[str, Any]:
 
 
 def file_name(text: str) -> str:
-    """Return a text as a file name. Raises StudyError where none can be."""
+    """Return a text as the name of a file or directory. Raises StudyError where it
+    would be another directory, as .. is."""
     name = re.sub(r"[^\w.-]+", "_", text)
     if text and not name.strip("."):
         raise StudyError(f"{text!r} is no name for a directory: use letters or digits")

@@ -16,7 +16,8 @@ def number(value: float | None, digits: int = 5) -> str:
 
 
 def cell(value: object) -> str:
-    """Return what a cell shows: text, or a number with three digits."""
+    """Return what a cell shows: text, or a number with three digits and all that
+    are before the point."""
     if not isinstance(value, float):
         return str(value).replace("|", "\\|")
     if abs(value) >= 100:

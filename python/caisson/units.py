@@ -24,7 +24,8 @@ NONE = "1"  # of counts, ratios and numbers of materials
 
 
 def split(name: str) -> tuple[str, str]:
-    """Return quantity and unit of "stress_zz_Pa"; NONE where it has no unit."""
+    """Return the quantity and its unit: ("stress_zz", "Pa") from "stress_zz_Pa"; the
+    name and NONE where it has no unit."""
     for end, unit in UNITS.items():
         if name.endswith(f"_{end}"):
             return name.removesuffix(f"_{end}"), unit

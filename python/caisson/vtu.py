@@ -25,7 +25,8 @@ MOST_PER_BYTE = 2000  # what a compressed byte can stand for
 
 
 def check(file: Path) -> None:
-    """Raise ResultsError unless a .vtu file is whole and of possible size."""
+    """Raise ResultsError unless a .vtu file is whole and its counts are possible: VTK
+    would try to allocate them."""
     data = disk.read_bytes(file, ResultsError)
     try:
         tags = list(ElementTree.fromstring(data).iter())

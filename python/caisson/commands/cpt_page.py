@@ -71,7 +71,8 @@ def range_of(low: float, high: float) -> str:
 def by_layer(
     heads: list[str], rows: list[list[str]]
 ) -> list[tuple[list[str], list[list[str]]]]:
-    """Return a table of layers as tables of few layers, a column each, for a page."""
+    """Return a table of layers as tables with a column for each layer and few of them,
+    which fit on a page."""
     found = []
     for first in range(0, len(rows), WIDEST):
         columns = [heads, *rows[first : first + WIDEST]]
@@ -116,7 +117,8 @@ def troubles_of(outcomes: Outcomes) -> list[str]:
 
 
 def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, str]]:
-    """Return what a first page must name: facts, program, date of the last run."""
+    """Return what a first page must name: facts, and when the last run was computed and
+    by what."""
     summaries = [outcome.run.results.summary for outcome in outcomes.complete]
     last = max(summaries, key=lambda summary: str(summary.get("written", "")))
     written = str(last.get("written", ""))[:16].replace("T", " ")

@@ -132,7 +132,8 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
 
 @contextlib.contextmanager
 def reporting(directory: Path | None) -> Iterator[None]:
-    """Renew the report of a run from time to time while it has more to show."""
+    """Renew the report of a run from time to time as long as it runs and has more to
+    show."""
     ended = threading.Event()
 
     def renew() -> None:
@@ -160,7 +161,8 @@ def reporting(directory: Path | None) -> Iterator[None]:
 
 
 def wait_for(process: "subprocess.Popen[bytes]") -> int:
-    """Return the exit status of the program as a shell would, once it has ended."""
+    """Return the exit status of the program, as a shell would. It ends with a
+    checkpoint when it is asked to stop, so it is waited for."""
     while True:
         try:
             status = process.wait()
@@ -170,7 +172,8 @@ def wait_for(process: "subprocess.Popen[bytes]") -> int:
 
 
 def run_alone(command: list[str]) -> int:
-    """Run the program on one rank, and hand signals on; return its exit status."""
+    """Run the program on one rank; return its exit status. Ctrl-C reaches it without
+    our help; other signals are handed on."""
     process = subprocess.Popen(command, env=environment())
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda caught, _: process.send_signal(caught))

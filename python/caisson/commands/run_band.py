@@ -30,7 +30,8 @@ def options_of(words: Sequence[str]) -> argparse.Namespace:
 
 
 def scenes_of(best: Path) -> dict[str, Path]:
-    """Return the scenes of a band by estimate. Raises RunError without any."""
+    """Return the scenes of a band by estimate, as far as there are such. Raises
+    RunError without any beside the best one."""
     members = {estimate: member_of(best, estimate) for estimate in ESTIMATES}
     found = {e: path for e, path in members.items() if path.is_file()}
     if BEST not in found:

@@ -41,7 +41,8 @@ class Layer(NamedTuple):
 
 
 def tip_layer(layers: Sequence[Layer], h: float) -> int:
-    """Return the number of the layer of a tip at an embedment (m); of two the upper."""
+    """Return the number of the layer in which a tip at an embedment h (m) is, at a
+    boundary the upper one."""
     return max([i for i, layer in enumerate(layers) if layer.top < h], default=0)
 
 

@@ -32,7 +32,8 @@ NAME = "cone.csv"  # of the test in the directory of a run
 
 
 class Profile:
-    """The cone resistance over depth; assumed: what an assumed one rests on."""
+    """The cone resistance over depth; assumed: of one that was not measured, what it
+    rests on, in a sentence."""
 
     assumed = ""
 
@@ -129,7 +130,8 @@ class ConeMethod:
 
 
 def read(path: Path) -> Profile:
-    """Return depth and resistance of a test. Raises InputError, with the wrong rows."""
+    """Return depth and resistance of the test in a file (caisson.design.cone_file).
+    Raises InputError, with the rows that are wrong."""
     test = cone_file.read(path, with_friction=False)
     return Profile(test.depth.tolist(), test.resistance.tolist())
 

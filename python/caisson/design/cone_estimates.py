@@ -82,7 +82,8 @@ class Estimates:
 def combined(
     rows: np.ndarray, low: np.ndarray, high: np.ndarray, limits: Limits
 ) -> Estimate:
-    """Return the estimate of values [n] with scatter from low to high [n]."""
+    """Return the estimate of values [n] whose ends of scatter are low and high [n],
+    within limits."""
     best = float(np.median(rows))
     below, above = np.quantile(rows, QUANTILES)
     return Estimate(

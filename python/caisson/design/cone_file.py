@@ -28,9 +28,10 @@ ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 class Test(NamedTuple):
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
-    each or None; remarks on what was not read; the net area ratio or None; the depth
-    (m) from which rows were measured, how those above are known ("ASSUMED" or "GIVEN"),
-    and whether the resistance is q_t."""
+    each, the last two None where the file has none; what was not read, in words; the
+    net area ratio of the cone, None where the file has none; the depth (m) above which
+    rows were not measured, with how they are known ("ASSUMED" or "GIVEN"); and whether
+    the resistance is q_t, which has the pore pressure in it."""
 
     depth: np.ndarray
     resistance: np.ndarray
@@ -65,7 +66,8 @@ def content_of(path: Path) -> bytes:
 
 
 def lines_of(path: Path, content: bytes) -> list[str]:
-    """Return the printable lines of a text (UTF-8 or Latin-1). Raises InputError."""
+    """Return the printable lines of a text: in UTF-8, or as Western European programs
+    write it. Raises InputError."""
     if content.startswith(b"\xd0\xcf\x11\xe0"):
         raise InputError(
             f"{path} is a workbook of an old form (.xls): save it as .xlsx or CSV"
@@ -115,7 +117,8 @@ def table_of(path: Path, wanted: list[str], how: How) -> Table:
 
 
 def is_plain(path: Path, how: How = How()) -> bool:
-    """Return whether a file is a table of text that needs no option to be read."""
+    """Return whether a file is a table of text that begins with its heads, so that any
+    command reads it without an option."""
     content = content_of(path)
     if how.is_said or content.startswith(ARCHIVE):
         return False
@@ -146,7 +149,8 @@ def wrong_in(cells: list[str], has_points: bool) -> str:
 
 
 def rows_of_numbers(path: Path, table: Table) -> Rows:
-    """Return the rows without lines of text, which are named. Raises InputError."""
+    """Return the rows without lines of text, as heads on a new page or "End of test",
+    which are named. Raises InputError."""
     places = [column.place for column in table.columns.values()]
     depth = table.columns.get("depth") or table.columns["rods"]
     depths = [cell_of(cells, depth.place) for _, cells in table.rows]

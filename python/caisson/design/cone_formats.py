@@ -77,7 +77,8 @@ def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
 
 
 def place_of(text: str) -> int:
-    """Return the place of a column from 0 by its number. Raises ValueError."""
+    """Return the place of a column, from 0, by its number, from 1. Raises
+    ValueError."""
     if int(text) < 1:
         raise ValueError(f"the first column has the number 1, not {text}")
     return int(text) - 1
@@ -118,7 +119,8 @@ def gef_lines(path: Path, keys: Keys, key: str, read: Callable, what: str) -> li
 
 
 def gef_facts(keys: Keys) -> Facts:
-    """Return what #MEASUREMENTVAR says of the test, as far as it is in numbers."""
+    """Return what #MEASUREMENTVAR says of the whole test; a value that is no number
+    says nothing."""
     found: dict[str, float] = {}
     for _, key, value in keys:
         try:
@@ -266,7 +268,8 @@ def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list
 
 
 def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the names of the tests: locations, or the pushes of those with several."""
+    """Return the names of the tests: locations, and the pushes of each that has
+    several."""
     pushes: dict[str, list[str]] = {}
     for place, push in dict.fromkeys(keys):
         pushes.setdefault(place, []).append(push)

@@ -52,7 +52,8 @@ def joined(lines: Sequence[str]) -> list[tuple[int, str]]:
 
 
 def numeric(cells: Sequence[str]) -> float:
-    """Return the share of numbers in the filled cells of a row, 0 of less than two."""
+    """Return the share of numbers in the cells of a row that are not empty, 0 where
+    there are fewer than two."""
     numbers = sum(map(is_number, cells))
     return numbers / sum(map(bool, cells)) if numbers > 1 else 0.0
 
@@ -150,7 +151,8 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
 
 
 def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:
-    """Return the heads in a row, with units from the row below where they lack them."""
+    """Return the heads in a row; units are those of the row below where a head has
+    none."""
     found = []
     for place, text in enumerate(texts):
         quantity, unit = head_of(text)
@@ -161,7 +163,8 @@ def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Hea
 
 
 def heads_in(rows: Rows) -> int | None:
-    """Return the place of the first row of heads (depth and q_c), None for none."""
+    """Return the place of the first row that names depth and cone resistance, None for
+    none."""
     for i, (_, cells) in enumerate(rows):
         found = {head_of(cell)[0] for cell in cells if cell and not is_number(cell)}
         if found & {"depth", "rods"} and found & {"qc", "qt"}:
@@ -235,7 +238,8 @@ def with_meters(heads: Sequence[Head]) -> tuple[list[Head], list[str]]:
 
 
 def refuse_wide(path: Path, rows: Rows, number: int, divider: str | None) -> None:
-    """Refuse rows with more cells than heads (decimal commas). Raises InputError."""
+    """Refuse rows with more cells than heads, as decimal commas make them. Raises
+    InputError."""
     advice = "each column needs a head"
     if divider == ",":
         advice = "where numbers have commas, divide cells by semicolons"

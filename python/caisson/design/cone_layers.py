@@ -119,7 +119,8 @@ def with_edges(
 def stretches_of(
     ground: Ground, rows: np.ndarray, names: np.ndarray, usual: str
 ) -> list[tuple[float, float, str]]:
-    """Return top, bottom and name of stretches of rows [n] with another name."""
+    """Return top, bottom and name where the names [n] of rows [n] are not the usual
+    one for THINNEST_LENS and more."""
     found: list[tuple[float, float, str]] = []
     places = np.flatnonzero(rows)
     begin = 0

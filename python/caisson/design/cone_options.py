@@ -33,7 +33,8 @@ class How(NamedTuple):
         return any(self)
 
     def refuse(self) -> None:
-        """Refuse what is said where no cone test is given. Raises InputError."""
+        """Refuse what is said where no file of a cone test is given. Raises
+        InputError."""
         for name, value in self._asdict().items():
             if value:
                 raise InputError(f"--{name} is for a cone test, --cpt")

@@ -243,7 +243,8 @@ def draw(
     names: dict[str, str],
     tip: float | None = None,
 ) -> Path:
-    """Write the picture. names: of correlations; tip: of a skirt (m)."""
+    """Write the picture. names: the correlation of each quantity; tip: the depth to
+    which a skirt goes (m)."""
     panels = panels_of(ground, every, names)
     figure = Figure(figsize=(2.0 + 2.3 * len(panels), 7.5))
     columns = list(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0])

@@ -89,7 +89,8 @@ class Readings:
             raise InputError(f"{self.path}, row {row}: {why(places[0])}{others}")
 
     def check_units(self) -> None:
-        """Refuse cone resistances with separators of thousands, which look decimal."""
+        """Refuse cone resistances that are thousands with separators, which would be
+        read as decimals."""
         column = self.table.columns[self.tip]
         texts = [cell_of(cells, column.place) for _, cells in self.table.rows]
         there = [text for text in texts if re.search("[.,]", text)]
@@ -167,7 +168,8 @@ class Readings:
             self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
 
     def join_pushes(self) -> None:
-        """Put pushes below each other, and name gaps; sort rows without an order."""
+        """Put the pushes of a borehole below each other, and name the gaps; rows that
+        have no order are sorted."""
         if not self.table.is_sorted:
             self.keep(np.argsort(self.values["depth"], kind="stable"))
         depth, numbers = self.values["depth"], np.unique(self.push)
@@ -236,7 +238,8 @@ class Readings:
         )
 
     def check_order(self) -> None:
-        """Leave out rows that repeat a depth, and few that go back; refuse others."""
+        """Leave out rows that repeat the depth of the row before, and few that go
+        back, and refuse others."""
         depth = self.values["depth"]
         above = np.maximum.accumulate(depth)
         same = np.concatenate([[False], depth[1:] == above[:-1]])
@@ -302,7 +305,8 @@ class Readings:
         self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
 
     def has_values(self, name: str) -> bool:
-        """Return whether a column has enough values; leave it out if not."""
+        """Return whether a column has values in enough rows to tell of the others; one
+        that has not is left out, and said."""
         if name not in self.values:
             return False
         number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)

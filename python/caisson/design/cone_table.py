@@ -49,8 +49,12 @@ class Facts(NamedTuple):
 
 @dataclass
 class Table:
-    """The rows of a test, and its columns by quantity; heads that were not read, where
-    units are, the push of each row, and whether rows are in the order of depth."""
+    """The rows of a test, and its columns by quantity.
+
+    unread: heads that were not read; units_are: where the units stand; pushes: the name
+    of the push of each row, where a test has several; is_sorted: whether the order of
+    the rows is that of the depths.
+    """
 
     columns: Mapping[str, Column]
     rows: Rows
@@ -88,7 +92,8 @@ def is_number(text: str) -> bool:
 
 
 def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise InputError with the first wrong row, and the numbers of others."""
+    """Raise InputError with the first row that is wrong, and the numbers of others, if
+    there are some."""
     if wrong:
         row, why = wrong[0]
         raise InputError(f"{path}, row {row}: {why}{more(wrong[1:])}")

@@ -35,7 +35,8 @@ WIDEST_GAP = 1.0  # m between rows; a wider one is reported
 
 
 class Shown(NamedTuple):
-    """How a quantity is shown: head, column of the file, scale and digits of both."""
+    """How a quantity is shown: its head, the column of the file, and what it is
+    multiplied by for both."""
 
     head: str
     column: str

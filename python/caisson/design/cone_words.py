@@ -72,13 +72,15 @@ def plain(text: str) -> str:
 
 
 def unit_in(text: str) -> str:
-    """Return the unit that a text begins with, as "m" of "m (meter)", or a word."""
+    """Return the unit that a text begins with, "m" of "m (meter)" or "[m below NAP]",
+    or its first word."""
     words = re.findall(r"[a-z0-9/%°]+", plain(text))
     return words[0] if words else ""
 
 
 def quantity_of(name: str) -> str:
-    """Return the quantity of a name, "" if none, also of "Spitzendruck qc"."""
+    """Return the quantity of a name, "" if none: in words, with or without its symbol,
+    as in "Spitzendruck qc"."""
     words = [w for w in re.split(r"[^a-z0-9]+", name) if w and w not in FILLERS]
     if found := BY_WORD.get("".join(words)):
         return found

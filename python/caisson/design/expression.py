@@ -88,14 +88,16 @@ def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
 
 
 def check_gradient(text: str, start: int, end: int) -> None:
-    """Refuse a unit per m without the depth in its term. Raises ValueError."""
+    """Refuse a unit per m, at a place of a text, whose term does not have the depth.
+    Raises ValueError."""
     term = re.split(r"[+-]", text[:start])[-1] + re.split(r"[+-]", text[end:])[0]
     if not re.search(r"(?<![A-Za-z])[dz]\b|[()]", term):
         raise ValueError(f"{text!r}: {text[start:end].strip()} needs *z, the depth")
 
 
 def named(token: Token, text: str, symbols: Mapping[str, str]) -> Token:
-    """Return the variable, function or symbol of a name. Raises ValueError."""
+    """Return the variable, function or symbol that a name stands for. Raises
+    ValueError."""
     if token.text in DEPTHS:
         return replace(token, text=DEPTHS[0])
     if token.text in symbols:
@@ -106,7 +108,8 @@ def named(token: Token, text: str, symbols: Mapping[str, str]) -> Token:
 
 
 def text_of(tokens: Sequence[Token], unit: str, symbols: Mapping[str, str]) -> str:
-    """Return the text in a unit, other units as factors. Raises ValueError."""
+    """Return the text in the unit of an entry, a unit within it as a factor. Raises
+    ValueError."""
     found, number = "", ""
     for token in tokens:
         piece = token.space + token.text
@@ -174,7 +177,8 @@ def has_unit(token: Token) -> bool:
 
 
 def refuse_no_expression(text: str, tokens: Sequence[Token]) -> None:
-    """Refuse lone parentheses or signs and endless numbers. Raises ValueError."""
+    """Refuse parentheses without their other one, signs without a value and numbers
+    without an end. Raises ValueError."""
     body = "".join(t.text for t in tokens if t.kind != "unit")
     if re.search(r"[?&|!=]", body):  # forms that only the program reads
         return
@@ -241,7 +245,8 @@ def without_unit(text: str, unit: str, symbols: Mapping[str, str] = {}) -> str:
 
 
 def value_at(text: str, depth: float, stress: float) -> float | None:
-    """Return an expression at a depth (m) and a stress (Pa); None of another form."""
+    """Return an expression of the program at a depth (m) and an effective stress (Pa);
+    None where its form is not known."""
     try:
         names = {"d": depth, "s": stress, "p": stress, "pi": math.pi}
         functions = {

@@ -221,6 +221,7 @@ def kinds_of(
 
 
 def porosity_of(weight: float, grains: float, is_wet: bool) -> float:
-    """Return the porosity for a unit weight (kN/m3) and grains (kg/m3)."""
+    """Return the porosity of soil with a unit weight (kN/m3), of the wet soil or in
+    water, and grains of a density (kg/m3)."""
     in_water = 1e3 * weight - (WATER if is_wet else 0.0)
     return 1 - in_water / (grains * GRAVITY - WATER)

@@ -135,7 +135,8 @@ class Wall:
 
 
 class Caisson:
-    """The resistance of a caisson; h is the embedment of its tip (m), forces in N."""
+    """The resistance of one caisson; h is the embedment of its tip (m), and all
+    forces are N."""
 
     def __init__(
         self,
@@ -229,7 +230,8 @@ class Caisson:
 
 
 class Assumptions(NamedTuple):
-    """What the method assumes of the ground. K tan(delta) is (low, high)."""
+    """What the method assumes, which no ground investigation gives. K tan(delta) is
+    (low, high)."""
 
     k_tan_delta_inside: tuple[float, float] = (0.45, 0.8)
     k_tan_delta_outside: tuple[float, float] = (0.45, 0.8)
@@ -248,7 +250,8 @@ UNDISTURBED = "undisturbed"
 
 
 class HoulsbyByrne:
-    """Jacking by a range of K tan(delta), and below it undisturbed ground."""
+    """The forces of jacking as a method: a range of K tan(delta), and below it
+    undisturbed ground without stress enhancement."""
 
     cases = ("low", "high")
 

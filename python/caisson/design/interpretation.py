@@ -29,7 +29,8 @@ KINDS = (SAND, SILT, CLAY)
 
 @dataclass(frozen=True)
 class Interpretation:
-    """A test with ground, correlations, layers; weight: whence the unit weight is."""
+    """A test: its ground, the correlations by quantity, and its layers with their
+    estimates; weight: where the unit weight comes from."""
 
     file: Path
     test: Test
@@ -59,7 +60,8 @@ def depths(text: str) -> list[float]:
 
 
 class Soil(NamedTuple):
-    """The kind of soil that is given: of a layer, of depths (m), or of all."""
+    """The kind of soil that is given, of a layer by its number, of depths (m) from top
+    to bottom, or of all."""
 
     kind: str
     layer: int = 0
@@ -166,7 +168,8 @@ def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ..
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
-    """Return what a test says down to the deepest (m). Raises InputError."""
+    """Return what a test says. deepest: below it (m) it does not count. Raises
+    InputError."""
     whole = cone_file.read(file, how=cone_options.how_of(options))
     check(file, whole, options)
     area_ratio, said = area_ratio_of(whole, options.area_ratio)
@@ -200,7 +203,8 @@ def interpret(
 
 
 def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
-    """Return the tops of layers (m), with the ends of --soil and --above."""
+    """Return the tops of the layers (m): those given or found, and the ends of what is
+    given by --soil and --above."""
     last = float(ground.depth[-1])
     edges = [edge for soil in options.soil for edge in (soil.top, soil.bottom)]
     edges += [ground.measured_from] if ground.above == GIVEN else []
@@ -211,7 +215,8 @@ def tops_for(ground: Ground, options: argparse.Namespace) -> list[float]:
 
 
 def check_soil(given: Sequence[Soil], end: float) -> None:
-    """Refuse depths of --soil below the end (m) or given twice. Raises InputError."""
+    """Refuse depths below the end of the test (m), and those that are given two kinds.
+    Raises InputError."""
     above = Soil("", 0, 0.0, 0.0)
     parts = [soil for soil in given if soil.bottom < inf]
     for soil in sorted(parts, key=lambda soil: soil.top):

@@ -74,7 +74,8 @@ def bottom_of_clay(layers: Sequence[Layer], h: float) -> float:
 
 
 def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
-    """Return the suction that lifts the clay off the sand below, or nan."""
+    """Return the suction that lifts the clay off the sand below; nan where there is
+    none."""
     bottom = bottom_of_clay(layers, h)
     if np.isnan(bottom):
         return nan

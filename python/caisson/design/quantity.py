@@ -29,7 +29,8 @@ def plain(unit: str) -> str:
 
 
 def factor_of(text: str, word: str, unit: str) -> float:
-    """Return the factor from one unit to another. Raises ValueError."""
+    """Return what a unit multiplies a number with that is wanted in another. Raises
+    ValueError."""
     found = UNITS.get(unit, {}).get(plain(word))
     if found is None:
         known = ", ".join(UNITS.get(unit, {})) or "none"
@@ -38,7 +39,8 @@ def factor_of(text: str, word: str, unit: str) -> float:
 
 
 def value_of(text: str, unit: str) -> float:
-    """Return a number in this unit, whatever its own. Raises ValueError."""
+    """Return a number in this unit; the text may have another one. Raises ValueError
+    with what is wrong."""
     if re.match(r"[+-]?\d*,\d", text.strip()):
         point = text.strip().replace(",", ".", 1)
         raise ValueError(f"{text!r} has a decimal comma; write {point}")
@@ -50,7 +52,8 @@ def value_of(text: str, unit: str) -> float:
 
 
 def parts_of(text: str) -> list[str]:
-    """Return the parts between commas, of which those in parentheses are none."""
+    """Return the parts of a text between commas; those within parentheses, as in
+    min(5, d), divide nothing."""
     parts, depth = [""], 0
     for letter in text:
         depth += (letter == "(") - (letter == ")")

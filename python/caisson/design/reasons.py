@@ -64,7 +64,8 @@ def head(h: float, ends: tuple[float, float, float], what: str, name: str) -> st
 
 
 class Compared(NamedTuple):
-    """A run beside Houlsby & Byrne at one depth, both under the suction of the run."""
+    """A run beside Houlsby & Byrne at one depth; the method's forces are those under
+    the suction of the run."""
 
     h: float  # m
     suction: float  # of the run (Pa), 0 where it is jacked
@@ -144,7 +145,8 @@ def of_houlsby_byrne(found: Compared) -> str:
 
 
 def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
-    """Return why a run is not at the bound of Houlsby & Byrne; nothing where it is."""
+    """Return why a run is not at the bound of Houlsby & Byrne; what: force or suction.
+    Nothing where it is."""
     if not is_beyond(computed, bound, bound):
         return ""
     name = f"undisturbed ground (K0 {K_TAN[2:]})"
@@ -167,7 +169,8 @@ ASSUMED_CONE = (
 
 
 class ByCone(NamedTuple):
-    """A run beside a method from a cone at one depth, both under the same suction."""
+    """A run beside a method from a cone at one depth; with suction the method's forces
+    are those under the suction of the run."""
 
     name: str
     h: float  # m
@@ -211,7 +214,8 @@ def cause_by_cone(found: ByCone) -> str:
 
 
 def of_cause(cause: str, h: float, walls: Walls | None) -> str:
-    """Return the sentence on a cause, once for all methods; nothing if it says all."""
+    """Return why a part is not like in methods from a cone, once for all of them;
+    nothing where its cause says all."""
     if cause == AT_TIP:
         return "The methods give the tip a fixed share of the cone resistance."
     if cause != AT_WALLS:

@@ -20,7 +20,10 @@ from math import atan, exp, pi
 
 
 def pressure_factor(slenderness: float, permeability_ratio: float = 1.0) -> float:
-    """Return a of h / D (slenderness) and the permeability inside over that outside."""
+    """Return a, the pressure at the tip over the suction.
+
+    slenderness: h / D; permeability_ratio: of the sand inside to that outside.
+    """
     a1 = 0.45 - 0.36 * (1 - exp(-slenderness / 0.48))
     return a1 * permeability_ratio / (1 - a1 + a1 * permeability_ratio)
 

@@ -210,7 +210,8 @@ def pressures_of(run: Results, wall: Wall) -> Table:
 
 
 def weighted_mean(x: np.ndarray, values: np.ndarray, length: float) -> float:
-    """Return the mean of values [n] at x [n] (m), weighted by a half wave squared."""
+    """Return the mean of values [n] at places x [n] (m) from 0 to a length (m),
+    weighted with the square of a half wave."""
     at = np.linspace(0, length, 401)
     weights = np.sin(pi * at / length) ** 2
     return float(weights @ np.interp(at, x, values) / weights.sum())

@@ -63,7 +63,8 @@ def suction_without_flow(
 def rest_without_flow(
     depth: np.ndarray, resistance: np.ndarray, weight: float
 ) -> float:
-    """Return the embedment (m) at which a resistance [n] bears the weight, or nan."""
+    """Return the embedment at which a resistance [n] at depths [n] first bears the
+    weight; nan where it does not."""
     stands = np.flatnonzero(resistance >= weight)
     if not len(stands):
         return nan
@@ -74,10 +75,12 @@ def rest_without_flow(
 def self_weight_penetration(
     caisson: Caisson, weight: float, enhanced: bool, deepest: float
 ) -> float:
-    """Return the embedment (m) at which the caisson first stands without suction.
+    """Return the embedment at which the caisson first stands without suction.
 
-    weight: effective, V'; deepest: of the skirt. Raises ValueError where it sinks in
-    deeper."""
+    weight: effective, V'; deepest: length of the skirt. Raises ValueError where
+    the caisson sinks in deeper than this. The resistance grows with depth inside a
+    layer, but may fall from layer to layer.
+    """
 
     def stands(h: float) -> bool:
         return caisson.resistance(h, enhanced) >= weight
@@ -111,7 +114,8 @@ def seepage(
 def piping_suction(
     caisson: Caisson, h: float, permeability_ratio: float = 1.0
 ) -> float:
-    """Return the suction (Pa) at which a layer inside has lost its weight."""
+    """Return the suction at which a layer inside has lost its weight, beyond which
+    the equations of Houlsby and Byrne do not hold."""
     lightest = min((layer.unit_weight for layer, _ in caisson.pieces(h)), default=0.0)
     return houlsby_byrne(lightest, h, caisson.outer_diameter, permeability_ratio)
 
@@ -159,9 +163,11 @@ def critical_suction(caisson: Caisson, h: float) -> float:
 def relieved_suction(
     jacking: Forces, weight: float, area: float, critical: float
 ) -> float:
-    """Return the suction by Senders and Randolph that moves the tip on: 0 where the
-    weight suffices, nan where no suction up to s_cr (critical) does. area: of the plug
-    (m2)."""
+    """Return the suction by Senders and Randolph that moves the tip on.
+
+    jacking: the forces without suction; area: that suction acts on (m2); critical:
+    s_cr. It is 0 where the weight suffices, and nan where no suction up to s_cr does.
+    """
     missing = jacking.total - weight
     if missing <= 0:
         return 0.0

@@ -49,7 +49,8 @@ TOO_SHORT = (
 
 
 def seconds_of(text: str) -> float:
-    """Return a duration such as 90s or 30min in seconds. Raises ArgumentTypeError."""
+    """Return a duration such as 90s, 30min or 2h in seconds. Raises
+    ArgumentTypeError."""
     found = re.fullmatch(r"(\d+(?:\.\d*)?) *(s|min|h)", text.strip())
     if found is None or not float(found[1]):
         raise argparse.ArgumentTypeError(
@@ -237,8 +238,10 @@ class Plan:
             raise StudyError(f"{self.output} is the scene. Choose another --output")
 
     def size_of_scene(self) -> Size:
-        """Return points and duration of the scene, as an earlier call found it, so that
-        a budget allows the same runs, or as the program says."""
+        """Return the points of the scene and how long it takes on one core: as an
+        earlier call has found it, so that the same budget allows the same runs, or as
+        the program says. It does not where its first steps took no time that it could
+        measure."""
         run = self.run("default", {}).run
         try:
             found = json.loads((self.results / SIZE).read_text("utf-8"))
@@ -378,7 +381,8 @@ def set_depths(study: Study, windowed: Sequence[float]) -> None:
 
 
 def advise(plan: Plan, study: Study) -> None:
-    """Print how the report finds the bar, its gaps, and the cost of a finer mesh."""
+    """Print how the report finds the bar, what it does not hold, and what the next
+    finer mesh would cost."""
     suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
     if plan.windows and suction.any():
         print(

@@ -154,8 +154,9 @@ def combined(terms: Sequence[Errors]) -> Errors:
 def shift_to_limit(
     study: Study, depths: np.ndarray, quantity: Quantity
 ) -> dict[str, np.ndarray]:
-    """Return the column that leads from the default mesh to the limit of all meshes, if
-    there are some; 0 where not all runs reach."""
+    """Return the column with what leads from the default mesh to the limit of all
+    meshes, if there are such runs: relative for a force, and 0 where not all runs reach
+    that far."""
     for names in (term["meshes"] for term in study.keys["errors"] if "meshes" in term):
         values = values_of(study.run("default"), quantity, depths)
         shift = mesh_error_of(study, names, quantity, depths).limit - values
@@ -245,8 +246,9 @@ def in_words(quantity: Quantity, below: float, above: float) -> str:
 def share_in_bar(
     study: Study, finest: StudyRun, names: Sequence[str], depths: np.ndarray
 ) -> dict[str, float]:
-    """Return the share of depths where the finest mesh lies in the bar of the others,
-    by quantity; nothing with less than two others."""
+    """Return the share of the depths where a run on the finest mesh lies in the error
+    bar that is made from the other meshes, by quantity; nothing where these are less
+    than two, or without that of the scene."""
     others = [name for name in names if name != finest.name]
     if len(others) < 2 or "default" not in others:
         return {}
@@ -324,7 +326,8 @@ def depths_of(study: Study) -> np.ndarray:
 
 
 def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:
-    """Write the file of each study and print its tables. Raises StudyError."""
+    """Write the file of each study and print its tables. Raises StudyError where a
+    run is missing."""
     for study in studies:
         depths = depths_of(study)
         try:

@@ -58,7 +58,8 @@ def observed_order(sizes: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def oscillates(sizes: np.ndarray, values: np.ndarray, slack: np.ndarray) -> np.ndarray:
-    """Return where runs go to and fro from coarse to fine, by more than a slack."""
+    """Return where the runs, from coarse to fine, go to and fro by more than a slack:
+    [n_depths]."""
     steps = np.diff(values[np.argsort(-sizes)], axis=0)
     return (steps.max(axis=0) > slack) & (steps.min(axis=0) < -slack)
 

@@ -210,7 +210,8 @@ class WindowedRun(Run):
 
 
 def fingerprint(scene: Path, entries: Entries, program: Path) -> str:
-    """Return the fingerprint of a scene, which its bar names. Raises RunError."""
+    """Return the fingerprint of a scene, by which it knows its error bar. Raises
+    RunError."""
     arguments = [str(scene), *set_options(entries), "--print-parameters"]
     return query(arguments, program).rpartition("# fingerprint: ")[2]
 

@@ -80,7 +80,8 @@ def on_boundary(state: State, mesh: Mesh) -> np.ndarray:
 
 
 def inward(mesh: Mesh, edges: np.ndarray) -> np.ndarray:
-    """Return the areas of edges as vectors into the soil on their left: [k, 2] (m2)."""
+    """Return the areas of edges as vectors into the soil, which is on their left:
+    [k, 2] (m2)."""
     first, last = mesh.nodes[edges[:, 0]], mesh.nodes[edges[:, 1]]
     (r, z), radius = (last - first).T, (first + last)[:, 0] / 2
     return 2 * np.pi * np.column_stack([-z * radius, r * radius])

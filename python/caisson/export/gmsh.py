@@ -30,7 +30,8 @@ def sections(lines: list[str]) -> dict[str, list[str]]:
 def read_2(
     parts: dict[str, list[str]]
 ) -> tuple[dict[int, list[float]], list[list[int]]]:
-    """Return nodes by tag, and [tags of group and surface, corners...] (format 2.2)."""
+    """Return nodes by their tags, and [tags of group and surface, corners...] of cells,
+    of format 2.2."""
     nodes = {}
     for line in parts["Nodes"][1:]:
         tag, *x = line.split()
@@ -111,7 +112,8 @@ def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
 
 
 def read_gmsh(path: Path, state: State) -> Mesh:
-    """Return the mesh of a file without the cells in the wall. Raises ResultsError."""
+    """Return the mesh of a file for a state of the soil, without the cells in the wall.
+    Raises ResultsError."""
     mesh, surfaces, names = parsed(path)
     check_extent(mesh, state, path)
     kept = np.ones(len(mesh.cells), dtype=bool)
@@ -181,7 +183,8 @@ def words_on(mesh: Mesh, kept: np.ndarray, names: dict[int, str]) -> str:
 
 
 def trimmed(mesh: Mesh, kept: np.ndarray, remark: str) -> Mesh:
-    """Return a mesh with the kept cells and their nodes, all counterclockwise."""
+    """Return a mesh with the cells that are kept and their nodes only, and with all
+    cells counterclockwise."""
     cells, area = mesh.cells[kept], mesh.areas[kept]
     turned = cells[:, [2, 1, 0, 3]]
     turned[cells[:, 2] == cells[:, 3]] = cells[cells[:, 2] == cells[:, 3]][

@@ -77,7 +77,8 @@ def neighbors(state: State, tree: cKDTree, places: np.ndarray, n: int) -> Neighb
 
 
 def is_poor(state: State, near: Neighbors) -> np.ndarray:
-    """Return whether neighbors are almost on a line, or to one side: [n]."""
+    """Return whether the neighbors are almost on one line, or far to one side of the
+    place: [n]."""
     step = state.position[near.index] - near.places[:, np.newaxis]
     weight = (near.weight / near.weight.sum(axis=1, keepdims=True))[..., np.newaxis]
     mean = (weight * step).sum(axis=1)
@@ -103,7 +104,8 @@ def plane_weights(state: State, near: Neighbors) -> np.ndarray:
 
 
 def within(values: np.ndarray, near: np.ndarray) -> np.ndarray:
-    """Return values [n, m], within 1.5 ranges of the neighbors [n, k, m]."""
+    """Return values [n, m], not further beyond those of the neighbors [n, k, m] than
+    half of their range."""
     low, high = near.min(axis=1), near.max(axis=1)
     return np.clip(values, 1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
 
@@ -129,7 +131,8 @@ class Values:
 
 
 def mean_of(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Return the weighted mean of those of neighbors [n, k] that are numbers."""
+    """Return the weighted mean of neighbors [n, k], without those that are not a
+    number."""
     known = np.isfinite(values) & (weight > 0)
     total = np.where(known, weight, 0).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):

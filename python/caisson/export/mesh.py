@@ -57,7 +57,8 @@ class Mesh:
         return x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y
 
     def edges(self) -> np.ndarray:
-        """Return the edges of one cell only: [k, 2], the soil on their left."""
+        """Return the edges that only one cell has: [k, 2], with the soil on their
+        left."""
         pairs = np.stack([self.cells, np.roll(self.cells, -1, axis=1)], axis=2)
         pairs = pairs.reshape(-1, 2)
         pairs = pairs[pairs[:, 0] != pairs[:, 1]]
@@ -186,7 +187,8 @@ def regular(state: State, window: Window) -> Mesh:
 
 
 def check_spacing(state: State, window: Window) -> None:
-    """Raise ResultsError for too many cells, or cells too large for the wall."""
+    """Raise ResultsError where a regular grid has too many cells, or where its cells
+    are too large for the wall."""
     spacing, wall = window.spacing, state.wall
     across, down = window.radius / spacing, window.depth / spacing
     if (across + 2) * (down + 2) > MOST_CELLS:

@@ -96,7 +96,8 @@ class Springs:
 
     @property
     def needed_reach(self) -> float:
-        """The way of a wave (m) from which on the stiffness is right."""
+        """The way of a wave (m) from which on the stiffness is right but for
+        TOO_STIFF."""
         influence = 2.5 * self.depth * (1 - POISSON)
         radius = self.diameter / 2
         return radius * ((1 + influence / radius) ** (1 / (1 + TOO_STIFF)) - 1)
@@ -128,7 +129,8 @@ class Springs:
         return 1 - float(before) / end if end > 0 else 0.0
 
     def stiffness(self, share: float) -> float:
-        """Return force over displacement at a share of the diameter (N/m), or nan."""
+        """Return force over displacement at a share of the diameter (N/m), or nan
+        where the run ends before."""
         at = share * self.diameter
         if at > self.displacement[-1]:
             return np.nan

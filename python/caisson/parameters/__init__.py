@@ -87,7 +87,8 @@ def check(studies: Sequence[Study], jobs: int) -> None:
 
 
 def cone_of(study: Study) -> Path | None:
-    """Return the cone test of a study, or None. Raises StudyError."""
+    """Return the cone test of a study, None where it names none. Raises StudyError
+    where it cannot be read."""
     if "cone" not in study.keys:
         return None
     path = study.file.parent / str(study.keys["cone"])
@@ -102,7 +103,8 @@ def cone_of(study: Study) -> Path | None:
 
 
 def by_methods(directory: Path, outcomes: Outcomes) -> list[Path]:
-    """Keep the cone test with each run, and write methods beside runs; return files."""
+    """Keep the cone test with each run, and write what the design methods say beside
+    the runs; return the files."""
     test = cone_of(outcomes.study)
     if test is None:
         return []

@@ -42,7 +42,8 @@ class Effect:
 
     @property
     def rises(self) -> bool:
-        """Whether the result is larger at the larger, or later, value."""
+        """Whether the result is larger at the larger value of the parameter, or at
+        that which stands later in its list."""
         first, last = (order(self.parameter, end) for end in self.ends)
         return first <= last
 
@@ -79,7 +80,8 @@ def levels(
     results: np.ndarray,
     parameter: Parameter,
 ) -> dict[Value, float]:
-    """Return the mean result at each value, of one at a time beside the base."""
+    """Return the result at each value of a parameter: its mean over the others, of one
+    at a time where all others have their base."""
     base, name = runs[0].sample, parameter.name
     found: dict[Value, list[float]] = {}
     for run, result in zip(runs, results):
@@ -130,7 +132,8 @@ def spread(matrix: np.ndarray) -> tuple[list[str], np.ndarray]:
 
 
 def text_of_effect(effect: Effect, base: float, unit: str, scale: float) -> list[str]:
-    """Return the cells of an effect of a list or a grid, with its shares."""
+    """Return the cells of an effect of a list or a grid, with its share of what it is
+    beside."""
     cells = [effect.parameter.label]
     for result, end in zip((effect.low, effect.high), effect.ends):
         value = f"{float(f'{result * scale:.4g}'):.12g} {unit}".strip()

@@ -56,7 +56,8 @@ class Parameter:
         return dict.fromkeys(self.entries, value) | products
 
     def picked(self, shares: np.ndarray) -> list[Value]:
-        """Return the values at shares [n] of its distribution or list."""
+        """Return the values at shares [n] from 0 to 1 of its distribution; those of a
+        list are equally likely."""
         if self.distribution is not None:
             return [rounded(x) for x in self.distribution.quantiles(shares)]
         numbers = np.minimum(shares * len(self.values), len(self.values) - 1)
@@ -70,7 +71,8 @@ class Parameter:
 
 
 def rounded(value: float) -> float:
-    """Return a value with six digits, the same on each machine."""
+    """Return a value with the digits that matter, so that it is read easily and is
+    the same on each machine."""
     return float(f"{value:.6g}")
 
 

@@ -41,7 +41,8 @@ class Answers(NamedTuple):
     answers: list[list[theory.Answer]]
 
     def band(self, method: int) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return least and most total force [n_depths] by a method, or None."""
+        """Return smallest and largest total force [n_depths] by a method, None where
+        it has no answer."""
         forces = [
             force
             for of_run in self.answers

@@ -79,7 +79,8 @@ def why_failed(run: StudyRun) -> str:
 
 
 def status_of(run: StudyRun) -> tuple[str, str]:
-    """Return how a run ended, and why; results of other entries do not count."""
+    """Return how a run ended, and why if it failed. A result of other entries, as of
+    the study before a change, does not count."""
     record = run.run.completion_record()
     if record is None:
         if run.trouble is None and not (run.run.directory / "log").is_file():
@@ -129,7 +130,8 @@ def outcome_of(run: StudyRun) -> Outcome:
 
 
 def curve_of(history: Table, column: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return depths and values [n] of the way down, or up if there is only that."""
+    """Return depths and values [n] of the way down, of a body that is only pulled of
+    the way up."""
     rows = curves.main_way(history[DEPTH])
     return history[DEPTH][rows], history[column][rows]
 
@@ -140,7 +142,8 @@ def values_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
 
 
 def unit_of(column: str) -> tuple[str, float]:
-    """Return the unit in which a column is shown, and its factor."""
+    """Return the unit in which a column of history.csv is shown, and what its values
+    are multiplied by."""
     for ending, shown in SHOWN.items():
         if column.endswith(ending):
             return shown
@@ -207,7 +210,8 @@ class Outcomes:
         self.grid = curves.common_depths(ways, step)
 
     def table_depths(self, ways: Sequence[np.ndarray]) -> np.ndarray:
-        """Return the depths of the study, or each meter and the last common depth."""
+        """Return the depths of the table: those of the study, or each meter and the
+        last depth that all runs have reached."""
         if "depths" in self.study.keys:
             return np.array(numbers_of(self.study.keys, "depths"))
         found = curves.round_depths(np.concatenate(ways))

@@ -25,7 +25,8 @@ BAR = "error bar of the scene: mesh and method"
 
 
 def draw_quantiles(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
-    """Draw bands between quantiles over the curves; return the median [n_grid]."""
+    """Draw bands between quantiles over the curves they come from; return the median
+    [n_grid]."""
     matrix = outcomes.matrix(outcomes.grid) * scale
     for curve in matrix:
         axes.plot(curve, outcomes.grid, color="0.8", linewidth=0.5, zorder=1)
@@ -60,7 +61,8 @@ class Line:
 
 
 def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
-    """Return legend title and lines of a grid or a list, by the main parameter."""
+    """Return the title of the legend and the lines of a grid or a list, dark to light
+    by the values of the parameter that matters most."""
     runs, parameter = outcomes.complete, outcomes.free[0]
     if len(outcomes.free) > 1:
         _, found = effects.effects_of(outcomes, outcomes.tornado_depth())
@@ -97,7 +99,8 @@ def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
 
 
 def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | None:
-    """Draw the curves of a list or a grid; return the base or the middle [n_grid]."""
+    """Draw the curves of a list or a grid; return that of the base, or the one in the
+    middle, [n_grid]."""
     is_one = outcomes.sampling == ONE
     title, lines = (lines_of_one if is_one else lines_of_grid)(outcomes)
     drawn = []
@@ -118,7 +121,8 @@ def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | No
 def draw_error(
     axes: Axes, outcomes: Outcomes, middle: np.ndarray | None, scale: float
 ) -> str:
-    """Draw the error bar of the scene on a curve; return words for the caption."""
+    """Draw the error bar of the scene on a curve at the depths of the table; return
+    what the caption says of it."""
     if middle is None:
         return NO_BAR
     values = np.interp(outcomes.depths, outcomes.grid, middle / scale)
@@ -231,7 +235,8 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
 
 
 def draw_tornado(path: Path, outcomes: Outcomes, depth: float | None) -> Path | None:
-    """Write the effects of parameters at a depth (m); return the path, or None."""
+    """Write the effects of several parameters at a depth (m); return the path, None
+    where there are none."""
     base, found = effects.effects_of(outcomes, depth)
     if depth is None or len(found) < 2:
         return None

@@ -73,7 +73,8 @@ def numbers_of(study: Mapping[str, Any], key: str) -> list[float]:
 
 
 def correlations_of(study: Mapping[str, Any], names: Sequence[str]) -> np.ndarray:
-    """Return the rank correlations of a study [n, n]. Raises StudyError."""
+    """Return the rank correlations [n_parameters, n_parameters] of a study. Raises
+    StudyError."""
     found = np.eye(len(names))
     given = study.get("correlations", [])
     for item in given if isinstance(given, list) else [given]:
@@ -217,7 +218,8 @@ def names_of(
 
 
 def scene_reader(scene: Run) -> SceneValue:
-    """Return what reads the value of an entry of the scene."""
+    """Return what reads the value of an entry of the scene, with the program when it
+    is first asked for."""
 
     @functools.cache
     def entries() -> dict[str, str]:
@@ -242,7 +244,8 @@ def scene_reader(scene: Run) -> SceneValue:
 
 
 def runs_of(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
-    """Return the runs of a study as their keys. Raises StudyError."""
+    """Return the runs of a study as a list of their keys: name, set, sample. Raises
+    StudyError."""
     for key in {"depths", "tornado_depth"} & set(study):
         numbers_of(study, key)
     parameters = read_all(study.get("parameters"))

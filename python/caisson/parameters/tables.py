@@ -69,7 +69,8 @@ def write_runs(path: Path, outcomes: Outcomes) -> Path:
 
 
 def write_fan(path: Path, outcomes: Outcomes) -> Path:
-    """Write fan.csv: what is observed over depth, with quantiles of a hypercube."""
+    """Write fan.csv: what is observed over depth, in each run that counts, and of a
+    Latin hypercube its quantiles first."""
     column, matrix = outcomes.column, outcomes.matrix(outcomes.grid)
     columns: dict[str, Any] = {DEPTH: outcomes.grid}
     if outcomes.sampling == LATIN and len(matrix):
@@ -107,7 +108,8 @@ def lines_of_surface(found: Surfaces) -> Iterator[str]:
 
 
 def write_surface(path: Path, found: Surfaces) -> Path:
-    """Write surface.csv: the surfaces, and last the probability of refusal."""
+    """Write surface.csv: what the surfaces say, and as its last row the probability of
+    refusal."""
     heads, rows = of_surface(found.spreads)
     if (refusal := found.refusal) is not None:
         share = f"{refusal.probability:.3g}"
@@ -158,5 +160,6 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
 
 
 def cell(value: float) -> str:
-    """Return a value for printed tables: four digits, and no power of ten."""
+    """Return a value for the printed tables: four digits, and no power of ten where it
+    is large."""
     return f"{float(f'{value:.4g}'):.12g}" if math.isfinite(value) else "-"

@@ -61,7 +61,8 @@ def add_method_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def keep_methods(options: argparse.Namespace, directory: Path) -> bool:
-    """Keep what is given of them with a run, if anything. Raises InputError."""
+    """Keep what is given of them with a run; return whether there is anything. Raises
+    InputError."""
     is_new = assumed.keep(options, directory) or options.cpt is not None
     how = cone_options.how_of(options)
     if options.cpt is not None:

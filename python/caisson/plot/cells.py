@@ -59,7 +59,8 @@ class CellMeans:
         corners: np.ndarray,
         rigid: np.ndarray,
     ) -> None:
-        """position [n_points, 2], volume [n_points]; corners [n_cells, 4, 2], rigid."""
+        """position [n_points, 2], volume [n_points]; of the grid corners
+        [n_cells, 4, 2] and rigid [n_cells]."""
         n = len(corners)
         self.cell = cell_of(position, corners)
         self.cell[self.cell >= 0] = np.where(

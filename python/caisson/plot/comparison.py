@@ -48,7 +48,8 @@ def pushing_force(history: Table) -> np.ndarray:
 
 
 def names_of(directories: Sequence[Path]) -> list[str]:
-    """Return a name for each directory: as many last parts as distinguish it."""
+    """Return a name for each directory: its last part, or as many of its last parts
+    as distinguish it from the others."""
     names = distinct_ends([directory.resolve().parts for directory in directories])
     if len(set(names)) < len(names):
         raise ResultsError("the same directory is given twice")
@@ -56,14 +57,16 @@ def names_of(directories: Sequence[Path]) -> list[str]:
 
 
 def default_picture(directories: Sequence[Path]) -> Path:
-    """Return the picture beside the first run, with the names of all."""
+    """Return the picture beside the first run, with the names of all: other runs have
+    another one."""
     names = "_".join(name.replace("/", "-") for name in names_of(directories))
     folder = directories[0].resolve().parent
     return folder / f"comparison_{names[:LONGEST]}.png"
 
 
 def read(directories: Sequence[Path]) -> Histories:
-    """Return the histories. Raises ResultsError of a body at rest."""
+    """Return the histories of the runs. Raises ResultsError where one has no
+    penetration."""
     found = {}
     for name, directory in zip(names_of(directories), directories):
         found[name] = Results(directory).history
@@ -138,7 +141,8 @@ def ways_of(name: str, depth: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def columns_of(histories: Histories, interval: float) -> Table:
-    """Return the columns [n_depths] of the file, by quantity."""
+    """Return the columns [n_depths] of the file, those of a quantity beside each
+    other."""
     depths = curves.common_depths([h[DEPTH] for h in histories.values()], interval)
     if len(depths) == 0:
         raise ResultsError(f"no run passes a multiple of {interval:g} m")

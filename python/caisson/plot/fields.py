@@ -116,7 +116,8 @@ def inside(frame: Frame, window: Window) -> np.ndarray:
 def paint_smoothly(
     axes: Axes, frame: Frame, values: np.ndarray, style: Style, sides: Sides = (1, -1)
 ) -> ScalarMappable:
-    """Draw a field between the means of cells [n]; gray where it has no value."""
+    """Draw a field between the means of the cells [n], on both sides of the axis; gray
+    where the soil has no value."""
     polygons = frame.means.polygons
     axes.add_collection(
         PolyCollection(
@@ -151,7 +152,8 @@ def paint_smoothly(
 
 
 def tops_of(scene: dict[str, Any]) -> list[float]:
-    """Return the z (m) at which another layer began."""
+    """Return the z (m) at which another layer began; not those within a layer that
+    changes with depth."""
     layers = scene.get("layers") or []
     return [
         -float(below["top_depth_m"])
@@ -230,7 +232,8 @@ def draw_about(axes: Axes, frame: Frame, window: Window) -> None:
 
 
 def nice_above(value: float) -> float:
-    """Return the least round number that is not below the value."""
+    """Return the least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is
+    not below the value."""
     if not np.isfinite(value) or value <= 0:
         return 1.0
     power = 10.0 ** np.floor(np.log10(value))
@@ -280,7 +283,8 @@ def shown_values(
 def stress_of(
     frames: Sequence[Frame], window: Window
 ) -> tuple[list[np.ndarray], Style]:
-    """Return the vertical effective stress of frames (kPa), and its colors."""
+    """Return the vertical effective stress of each frame in kPa, compression
+    positive, and its colors."""
     fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
@@ -321,7 +325,8 @@ def figure_of(
 
 
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress, and its ratio to that at rest."""
+    """Draw the vertical effective stress at each frame, and its ratio to that at
+    rest."""
     stress = (
         "left halves: vertical effective stress (kPa)",
         *stress_of(frames, window),
@@ -352,7 +357,8 @@ def draw_void_ratio(path: Path, frames: Sequence[Frame], window: Window) -> Path
 def draw_tip(
     axes: Axes, frame: Frame, values: np.ndarray, box: Box, style: Style
 ) -> EllipseCollection:
-    """Draw a field as discs, one for each material point, on means of the cells."""
+    """Draw a field on a small part: a disc of its own area for every material
+    point, on the means of the cells."""
     left, right, bottom, top = box
     position, size = frame.soil["position"], np.sqrt(frame.means.area)
     middle, half = np.array([left + right, bottom + top]) / 2, (right - left) / 2
@@ -397,7 +403,8 @@ def tip_box(frame: Frame, window: Window, scene: dict[str, Any]) -> Box | None:
 def draw_displacement(
     path: Path, frame: Frame, window: Window, scene: dict[str, Any]
 ) -> Path:
-    """Draw the displacement, and with plastic strain that at the tip."""
+    """Draw the displacement of the soil, and displacement and plastic strain at the
+    tip."""
     soil, box = frame.soil, tip_box(frame, window, scene)
     moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
     fields = [("displacement (m)", moved, "viridis")]
@@ -442,7 +449,8 @@ def frames_of(run: Results) -> list[Frame]:
 
 
 def draw(run: Results, frames: Sequence[Frame], window: Window) -> list[Path | None]:
-    """Write stress.png, displacement.png and void_ratio.png; return the paths."""
+    """Write stress.png, displacement.png and, where volume changes,
+    void_ratio.png; return their paths, None for none."""
     directory, scene = run.directory, run.scene
     return [
         draw_stress(directory / "stress.png", frames, window),

@@ -17,7 +17,8 @@ PIECES = 4  # of the width of a cell in the mudline
 
 
 class Flow:
-    """The flow through the soil, in units of pressure per meter."""
+    """The flow through the soil, in the unit of the pressure per meter, linear in
+    each cell and continuous."""
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
         """pressure: excess at the points."""
@@ -36,7 +37,8 @@ class Flow:
     def heights(
         self, cell: np.ndarray, r: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return where r is in its cell, 0 to 1, and bottom and top there."""
+        """Return the place of r in the width of its cell, from 0 to 1, and bottom
+        and top of the cell there."""
         corners = self.corners[cell]
         left, right = corners[:, 0, 0], corners[:, 1, 0]
         xi = (r - left) / (right - left)
@@ -44,7 +46,8 @@ class Flow:
         return xi, bottom, (1 - xi) * corners[:, 3, 1] + xi * corners[:, 2, 1]
 
     def at(self, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the flow [n, 2] at positions [n, 2], or nan, and sizes of cells."""
+        """Return the flow [n, 2] at positions [n, 2], nan out of the soil, and the
+        sizes of their cells."""
         cell = cell_of(position, self.corners)
         xi, bottom, top = self.heights(cell, position[:, 0])
         eta = (position[:, 1] - bottom) / np.maximum(top - bottom, 1e-12)

@@ -44,7 +44,8 @@ def penetration(history: Table) -> np.ndarray | None:
 
 
 def smooth(depth: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """Return the running mean of a force in kN, over window_of()."""
+    """Return the running mean of a force in kN; short runs have a window of a
+    quarter of their path."""
     return running_mean(depth, force, window_of(depth)) / 1e3
 
 
@@ -61,7 +62,8 @@ def draw_curve(axes: Axes, depth: np.ndarray, force: np.ndarray, name: str) -> N
 
 
 def has_suction(run: Results) -> bool:
-    """Return whether a run has suction, so that its forces are not of jacking."""
+    """Return whether a run has suction: its forces are not those of jacking, beside
+    which methods stand."""
     return "required_suction_Pa" in run.history
 
 

@@ -33,7 +33,8 @@ LID, SHELL = "plug meets the lid", "wall buckles (DNV-RP-C202)"
 
 
 class Limit(NamedTuple):
-    """A limit: its kind, the entry of its factor, and its color in charts."""
+    """A limit: its kind, the entry of its factor in section Design, and its color in
+    charts."""
 
     kind: str
     entry: str
@@ -151,7 +152,8 @@ def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
 
 
 def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
-    """Return the suction (kPa) [n] at which the wall buckles at depths [n] (m)."""
+    """Return the suction (kPa) at which the wall buckles at depths [n] (m), by the
+    pressures on it that the run has at its frames."""
     if (wall := wall_of(run)) is None:
         return np.full(len(at), np.nan)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, at)
@@ -196,7 +198,8 @@ def write_pressures(path: Path, run: Results) -> Path | None:
 
 
 def rounded_down(depth: float) -> float:
-    """Return a depth (m) in whole decimeters, or two digits, rounded down."""
+    """Return a depth (m) in whole decimeters, or with two digits below 1 m; a
+    twentieth less than one of them counts as that one."""
     step = min(0.1, 10.0 ** (math.floor(math.log10(depth)) - 1)) if depth > 0 else 0.1
     return round(step * math.floor(depth / step + 0.05), 9)
 

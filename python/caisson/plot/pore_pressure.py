@@ -91,7 +91,8 @@ def caption(frames: Sequence[fields.Frame]) -> str:
 def draw_water(
     axes: Axes, frame: fields.Frame, window: fields.Window, least: float | None
 ) -> None:
-    """Draw the mudline, and flow lines above the pressure least (kPa)."""
+    """Draw the mudline, and flow lines where the water flows: least is the pressure
+    (kPa) below which it hardly does."""
     flow = Flow(frame.means, frame.soil["pore_pressure"])
     if least is not None and np.abs(frame.soil["pore_pressure"]).max() / 1e3 > least:
         draw_flow(axes, flow, frame, window)

@@ -23,7 +23,8 @@ def fade(axes: Axes, end: float | None) -> None:
 
 
 def in_units(figure: Figure, shown: Units) -> None:
-    """Let axes with kN, kPa or m in brackets show the units of a run."""
+    """Let the axes of a figure, whose labels have kN, kPa or m in brackets, show their
+    numbers in the units of a run."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
             label_in_units(axis, shown)

@@ -45,7 +45,8 @@ def has_line(*suctions: np.ndarray) -> bool:
 
 
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
-    """Draw the ranges of the required suction of the methods (kPa)."""
+    """Draw the ranges of the required suction of the methods, in kPa, from where the
+    weight no longer suffices."""
     for method in answers.required:
         color = COLOR_OF.get(method.name, GREEN)
         low, high = (end / 1e3 for end in method.band)
@@ -135,7 +136,8 @@ def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> li
 
 
 def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
-    """Draw suction, methods and limits; return the limits out of the range."""
+    """Draw the suction of the run, of the methods, and its limits; return which limits
+    are out of the range."""
     history = run.history
     depth, applied = history["penetration_m"], history["suction_Pa"] / 1e3
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
@@ -251,7 +253,8 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
 
 
 def draw(directory: Path, run: Results) -> list[Path]:
-    """Write suction.png; return its path, none without a way under suction."""
+    """Write suction.png; return its path, none without a pump or without
+    penetration."""
     history = run.history
     if "required_suction_Pa" not in history:
         return []

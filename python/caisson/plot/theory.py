@@ -34,7 +34,8 @@ LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
 
 class NotApplicable(Exception):
-    """Why a method says nothing about a scene, in a part of a sentence."""
+    """Why a method says nothing about a scene: what the method does not know, in a
+    part of a sentence."""
 
 
 class Site(NamedTuple):
@@ -73,7 +74,8 @@ def top_of(entry: Scene) -> float:
 
 
 def sand_of(entry: Scene, number: int) -> Sand:
-    """Return a layer as sand with a cone resistance. Raises NotApplicable."""
+    """Return what a cone resistance follows from in a layer of run.json. Raises
+    NotApplicable."""
     density, angle = entry.get("relative_density"), entry.get("friction_angle_deg")
     if density is None and (entry.get("law") in BY_DENSITY or not angle):
         law = entry.get("law", LAWS[0])
@@ -144,7 +146,8 @@ def skirt_of(site: Site) -> Skirt:
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
-    """Return what Houlsby and Byrne assume by the options of the report."""
+    """Return what Houlsby and Byrne assume, by the options of the report or, in the
+    run.json of earlier versions, the scene."""
     given = scene.get("design_methods") or {}
     known = {name: given[name] for name in Assumptions._fields if name in given}
     return Assumptions(
@@ -229,7 +232,8 @@ def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
 
 
 def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
-    """Return Houlsby and Byrne down to a depth (m). Raises NotApplicable."""
+    """Return Houlsby and Byrne for a site, with the layers down to deepest (m). Raises
+    NotApplicable."""
     skirt = skirt_of(site)
     try:
         layers = layers_of(site, deepest)
@@ -279,7 +283,8 @@ def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
 
 
 def clay_of(site: Site, deepest: float) -> Method:
-    """Return the method of clay, with or without sand. Raises NotApplicable."""
+    """Return the method of clay for a site, in which there may be sand, too. Raises
+    NotApplicable."""
     skirt, soils = skirt_of(site), {soil for _, soil in soils_of(site, deepest)}
     if "clay" not in soils:
         only(site, deepest, "clay")
@@ -290,7 +295,8 @@ def clay_of(site: Site, deepest: float) -> Method:
 
 
 def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) [n] at which a plug of clay gives way, if any."""
+    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
+    [n]; none without clay."""
     try:
         skirt, deepest = skirt_of(site), float(depth.max())
         soils_of(site, deepest)

@@ -25,8 +25,9 @@ AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
 
 
 def shown_times(walls: Table, wanted: Sequence[float] = ()) -> np.ndarray:
-    """Return the times to draw, MOST_FRAMES at most: of the penetrations that the scene
-    asks for (m), or evenly, and the last."""
+    """Return the times to draw, MOST_FRAMES at most, the last among them: those at the
+    penetrations that the scene asks for (m), as in the pictures of fields, or evenly.
+    """
     times = np.unique(walls["time_s"])
     depths = [walls["penetration_m"][walls["time_s"] == time][0] for time in times]
     near = [int(np.argmin(np.abs(np.array(depths) - goal))) for goal in wanted]
@@ -46,7 +47,8 @@ def draw_panel(
     beside: tuple[float, str],
     shown: Units,
 ) -> None:
-    """Draw a column at times, and a multiple of the horizontal stress at rest."""
+    """Draw a column over depth at times, and a multiple of the horizontal stress at
+    rest with its label."""
     factor, label = beside
     for time, share in zip(times, np.linspace(0.85, 0, len(times))):
         rows = walls["time_s"] == time

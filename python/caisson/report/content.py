@@ -82,8 +82,9 @@ def own(
 
 
 def method_curves(run: Results, deepest: float) -> list[Curve]:
-    """Return the design methods (kN) over depth (m), at first tip and total by Houlsby
-    & Byrne; nothing with suction, as they are forces of jacking."""
+    """Return the ranges of the design methods (kN) over depth (m). Only tip and total
+    by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
+    forces of jacking."""
     found: list[Curve] = []
     if forces.has_suction(run):
         return found
@@ -113,7 +114,8 @@ def range_curve(run: Results, column: str, name: str) -> list[Curve]:
 
 
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:
-    """Return the forces (kN) over depth (m) with error bars and methods."""
+    """Return the forces (kN) over depth (m) with their error bars and the range of
+    Houlsby & Byrne."""
     history, depth = run.history, run.history["penetration_m"]
     found = []
     for name, color in forces.COLORS.items():
@@ -139,7 +141,8 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
 
 
 def method_suctions(run: Results) -> list[Curve]:
-    """Return the suctions of the methods (kPa) over depth."""
+    """Return the required and the other critical suctions of the methods (kPa) over
+    depth."""
     site, depth = theory.site_of(run), design.depths_of(run.history)
     answers = suction_methods.answers_of(site, depth)
     found = []
@@ -244,7 +247,8 @@ def with_points(found: list[Curve]) -> list[Curve]:
 
 
 def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
-    """Return an interactive figure in the units of a run; a rise is in mm."""
+    """Return an interactive figure in the units of a run; that of its depths is its
+    key depth, and a rise is in mm anyway."""
     is_pull = bool(figure.get("upward"))
     across = shown.factor_of(figure["axis"])
     down = 1.0 if is_pull else shown.factor("m")

@@ -60,7 +60,8 @@ class Bounds(NamedTuple):
 
 @dataclass
 class Installation:
-    """Columns [n] at depths [n] (m): forces in kN, suctions in kPa or empty."""
+    """Columns [n] at depths [n] (m) of the way down: forces in kN, suctions in kPa;
+    those of suction are empty in a jacked run."""
 
     depth: np.ndarray
     forces: dict[str, np.ndarray]
@@ -98,7 +99,8 @@ class Installation:
 
     @property
     def utilization(self) -> np.ndarray:
-        """The required suction over the allowable one, [n]; inf or nan over 0."""
+        """The required suction over the allowable one, [n]; where none is allowed
+        infinite, or nan if none is required either."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(self.required / self.allowable)
 
@@ -112,7 +114,8 @@ class Installation:
 
 
 def needs_suction(run: Results) -> bool:
-    """Return whether the weight does not suffice at a depth of the tables."""
+    """Return whether the weight of a caisson does not suffice at any depth of the
+    tables; False without suction."""
     required = at_depths(run).get(design.SUCTION, np.empty(0))
     return bool((required > 1e3 * NOTHING).any())
 
@@ -142,7 +145,8 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
 def installation_of(
     run: Results, rate: Rate, at: np.ndarray | None = None
 ) -> Installation | None:
-    """Return the installation at depths [n] (m); None without a way down."""
+    """Return the installation at depths [n] (m), or those of the tables; None for a run
+    that does not go down."""
     history = run.history
     if penetration(history) is None or not design.goes_down(history):
         return None
@@ -187,7 +191,8 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
 
 
 def way_to_an_error(run: Results) -> str:
-    """Return the command that computes the error bar of a scene."""
+    """Return the command that computes the error bar of a scene, for the error of its
+    mesh where the title says that."""
     said = re.search(r"error of about (\d+) ?%", str(run.known.get("title", "")))
     command = "caisson run" if INSTALLED else "scripts/run"
     scene = run.known.get("scene_file") or "FILE.prm"
@@ -217,7 +222,8 @@ def bar_in_words(run: Results, found: Installation) -> str:
 def in_range(
     found: Installation, values: np.ndarray, bounds: Bounds | None, unit: str
 ) -> list[str]:
-    """Return values [n] in the unit shown, with bounds where they have any."""
+    """Return values [n] in the unit shown, with their bounds where they have any:
+    about, below the end of these."""
     texts = [text_of(found.shown.factor(unit) * float(value)) for value in values]
     bars = [bar_at(found, bounds, i, unit) for i in range(len(values))]
     return [f"{t} ({b.rpartition(' ')[0]})" if b else t for t, b in zip(texts, bars)]
@@ -240,7 +246,8 @@ def trimmed(words: str) -> str:
 
 
 def tables_of(found: Installation) -> list[dict[str, Any]]:
-    """Return the tables of what the installation takes, and what is allowed."""
+    """Return the tables of the installation, each with heads and rows of text: what it
+    takes and, with suction, what is allowed."""
     n, shown = range(len(found.depth)), found.shown
     depth = [trimmed(shown.depth(float(depth))) for depth in found.depth]
     total = found.forces["total_force_N"]
@@ -410,7 +417,8 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
 
 
 def room_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the room below the lid, and where heave would use it up."""
+    """Return the room below the lid and, from half the skirt on, where heave would use
+    it up if it went on as over the last meter."""
     depth, heave, room = found.depth, found.heave, float(found.room[-1])
     shown = found.shown
     remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"

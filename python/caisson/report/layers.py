@@ -106,7 +106,8 @@ def layers_of(scene: Mapping[str, Any]) -> list[Layer]:
 
 
 def numbers_of(layer: Mapping[str, Any]) -> Numbers:
-    """Return value and entry of each number of a layer by name and unit."""
+    """Return value and entry of each number of a layer by its name and unit; unit
+    weight, stress and strength before the others."""
     found: Numbers = {}
 
     def add(keys: Iterable[str]) -> None:
@@ -251,7 +252,8 @@ def cell_of(run: Results, layer: Layer, name: str, unit: str) -> tuple[str, bool
 
 
 def soil_table(run: Results) -> dict[str, Any]:
-    """Return heads and rows of (text, whether assumed), a row for each layer."""
+    """Return the table with a row for each layer: heads, and rows of (text, whether
+    assumed)."""
     shown, rows = run.shown, []
     of_strength = ("Cohesion", "Friction angle", "Relative density")
     for layer in layers_of(run.scene):
@@ -271,7 +273,8 @@ def soil_table(run: Results) -> dict[str, Any]:
 
 
 def layers_table(run: Results) -> dict[str, Any]:
-    """Return all numbers of the layers: heads, and rows of (text, assumed)."""
+    """Return the table of all numbers of the layers, a row for each and a column for
+    each layer: heads, and rows of (text, assumed)."""
     layers = layers_of(run.scene)
     laws = [(str(layer.parts[0].get("law", "")), False) for layer in layers]
     rows = [[("law", False), *laws]]

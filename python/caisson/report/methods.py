@@ -123,7 +123,8 @@ def beside(
 def under_suction(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[theory.Beside]:
-    """Return resistances [n] of methods under the suction of the run."""
+    """Return the resistance that methods for suction have at depths [n] under the
+    suction of the run; answers: of jacking."""
     suction = np.maximum(design.suction_at(run.history, at), 0)
     try:
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
@@ -158,7 +159,8 @@ def under_suction(
 
 
 def or_piping(values: np.ndarray) -> list[str]:
-    """Return suctions as text; NO_ANSWER below where a method ends."""
+    """Return suctions as text; NO_ANSWER below the depth where a method ends, as the
+    suction exceeds its critical one."""
     known = np.flatnonzero(np.isfinite(values))
     last = int(known[-1]) if len(known) else -1
     return [
@@ -170,7 +172,8 @@ def or_piping(values: np.ndarray) -> list[str]:
 def suction_tables(
     run: Results, at: np.ndarray, site: theory.Site, answers: list[theory.Answer]
 ) -> list[dict[str, Any]]:
-    """Return the tables of suctions and of the resistance under suction."""
+    """Return the tables of required and critical suctions, and of the resistance under
+    the suction of the run; answers: of jacking."""
     required = np.maximum(design.suction_at(run.history, at), 0)
     found = suction_methods.answers_of(site, at)
     critical = {
@@ -205,7 +208,8 @@ def computed_at(run: Results, h: float) -> Forces | None:
 
 
 def compared(run: Results, h: float) -> reasons.Compared | None:
-    """Return the run beside Houlsby & Byrne at a depth (m), or None."""
+    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
+    answer there or the run lacks a force."""
     site, at = theory.site_of(run), np.array([h])
     try:
         byrne = theory.houlsby_byrne_of(site, h)
@@ -317,8 +321,10 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 
 
 def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return a card with computed over method at the deepest depth with an answer: of a
-    fitted method, without an assumed cone if possible, else of the bound."""
+    """Return a card with computed over method, of the first table of the methods, at
+    the deepest depth with an answer of a method that is fitted to field data, without
+    an assumed cone if possible, else of the lower bound; nothing where none has an
+    answer."""
     answers = [
         (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
         for table in found["tables"][:1]

@@ -40,7 +40,8 @@ def script(name: str) -> str:
 
 
 def pictures_of(run: Results) -> list[dict[str, str]]:
-    """Return the pictures as data; drawn where the run has left none."""
+    """Return the run's pictures as data, each with what it shows; drawn where the run
+    has left none."""
     if not (run.directory / "forces.png").is_file() and not run.is_running:
         plot.draw(run.directory)
     found = []
@@ -167,7 +168,8 @@ def has_ended_early(run: Results) -> bool:
 
 
 def incomplete_of(run: Results) -> str:
-    """Return what a run is good for that ended early, else nothing."""
+    """Return what a run that did not come to its end is good for; nothing of others,
+    and where suction ends before it."""
     depth = run.history.get("penetration_m")
     if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
         return ""

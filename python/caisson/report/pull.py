@@ -16,7 +16,8 @@ PULL, WATER = "pull", "water beneath lid and tip"
 
 
 def is_pull(run: Results) -> bool:
-    """Return whether the body is pulled: ends higher, or rises sealed."""
+    """Return whether a run is about the pull: whether the body ends higher than it
+    began, or rises with a sealed lid, as in cycles."""
     depth = run.history.get("penetration_m", np.zeros(1))
     rises = bool((np.diff(depth) < 0).any())
     return bool(depth[-1] < depth[0]) or (is_sealed(run) and rises)
@@ -61,7 +62,8 @@ def sentence_of(run: Results) -> str:
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
     """Return the rise above the deepest place [n_rows] (mm), and color and values
-    [n_rows] (kN) of the pull and its parts, from where it is pulled."""
+    [n_rows] (kN) of the pull and of its parts, by their names; with an open lid from
+    where it begins to be pulled on, behind the unloading of the soil."""
     history = run.history
     total = history["total_force_N"]
     borne = history.get(curves.WITH_WATER, total)

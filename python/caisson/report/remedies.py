@@ -56,7 +56,8 @@ class Sizes(NamedTuple):
 
 
 class Planned:
-    """The caisson at a depth (m) that it does not reach; in kN and kPa."""
+    """The caisson at a depth (m) that it does not reach; forces in kN, suctions in
+    kPa."""
 
     def __init__(self, run: Results, found: Installation, depth: float) -> None:
         """found: what is feasible, whose trend goes on to the depth."""
@@ -152,7 +153,8 @@ def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None
 
 
 def reach(planned: Planned, name: str, size: float) -> float:
-    """Return the depth (m) reached with another diameter or wall (m)."""
+    """Return the depth (m) to which the caisson goes in with another diameter or
+    wall (m)."""
     run, found = planned.run, planned.found
 
     def is_beyond(depth: float) -> bool:
@@ -162,7 +164,8 @@ def reach(planned: Planned, name: str, size: float) -> float:
 
 
 def weight_of(planned: Planned) -> float | None:
-    """Return the weight (kN) that suffices, or None."""
+    """Return the weight (kN) that suffices; None where none does, as the wall buckles
+    under it."""
     sizes = planned.sizes
     low, high = sizes.weight, sizes.weight + planned.required * sizes.area
     if not planned.suffices(sizes._replace(weight=high)):
@@ -208,7 +211,8 @@ def pump_row(planned: Planned) -> str:
 
 
 def size_row(planned: Planned, name: str, found: float | None, why: str) -> list[str]:
-    """Return the row of a diameter or a wall (m), or how deep one would go."""
+    """Return the row of a diameter or a wall (m); where none suffices, why, and how
+    deep one of TRIED goes."""
     old = planned.sizes._asdict()[name]
     factor, unit = (1e3, "mm") if name == "wall" else (1.0, "m")
     if found is not None:

@@ -60,7 +60,8 @@ def entry_with_unit(value: str, unit: str) -> str:
 
 
 def entries_of(run: Results) -> dict[str, str]:
-    """Return the entries that the scene sets, with their units."""
+    """Return the entries that the scene sets, with their units; those of older files
+    have none."""
     summary = run.summary
     units = summary.get("units", {})
     return {
@@ -70,7 +71,8 @@ def entries_of(run: Results) -> dict[str, str]:
 
 
 def mass_scaling_of(run: Results) -> str:
-    """Return the mass scaling of an inertia tolerance, in words."""
+    """Return the mass scaling found by an inertia tolerance, in words; nothing without
+    one, and of older files."""
     scaling = run.summary.get("mass_scaling")
     tolerance = run.entry("Time/Inertia tolerance")
     if not scaling or tolerance in ("", "none"):
@@ -168,7 +170,8 @@ def tip_of(run: Results) -> list[Item]:
 
 
 def installation_of(run: Results) -> list[Item]:
-    """Return how the caisson is installed: weight, water and speed."""
+    """Return how the caisson is installed: its weight, the water, and the speed of
+    the computation."""
     found, weight = [], run.scene.get("submerged_weight_N")
     if weight is not None:
         entry = f"{BODY}/Submerged weight"

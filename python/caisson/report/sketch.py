@@ -108,7 +108,8 @@ class Drawing:
 
 
 def about_layer(run: Results, layer: Layer, width: float) -> str:
-    """Return the numbers of a layer that fit into a width (pixels)."""
+    """Return the most important numbers of a layer, as many as are not wider (pixels):
+    the table beside it has all."""
     strength = strength_of(run, layer)
     words = [f"layer {layer.number}", strength.partition(" (")[0]]
     weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
@@ -119,7 +120,8 @@ def about_layer(run: Results, layer: Layer, width: float) -> str:
 
 
 def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
-    """Draw the layers with depths and numbers."""
+    """Draw the layers, with their depths at the right and their numbers between the
+    walls of the caisson, where no dimension is."""
     side, written = drawing.half_width, -1e9
     for i, layer in enumerate(layers_of(run.scene)):
         low = min(layer.bottom or drawing.bottom, drawing.bottom)

@@ -40,7 +40,8 @@ class Verdict(NamedTuple):
 
 
 def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
-    """Return the depth (m) where a limit [n] (kPa) is reached, and its row, or None."""
+    """Return the depth (m) where the required suction reaches a limit [n] (kPa), and
+    the row at or below it; None where it does not."""
     beyond = (found.required >= limit) & (found.required > NOTHING)
     if not beyond.any():
         return None
@@ -52,7 +53,8 @@ def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
 
 
 def end_by_program(run: Results) -> tuple[float, str] | None:
-    """Return depth (m) and reason where the program found an end, or None."""
+    """Return the depth (m) where the program itself found that suction ends, and why;
+    None where it did not."""
     if not (ended := run.scene.get("infeasible")):
         return None
     reason = str(ended["reason"])
@@ -60,7 +62,8 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
-    """Return depth (m) and reason where the required suction is too large, or None."""
+    """Return the depth (m) where the required suction reaches the allowable one, and
+    why; None where it does not."""
     if not found.has_suction:
         return None
     if (end := reached(found, found.allowable)) is None:

@@ -244,7 +244,8 @@ def begin_of(options: argparse.Namespace) -> float:
 
 
 def end_of(options: argparse.Namespace) -> float:
-    """Return where the run ends (m): as given, or with room for the plug."""
+    """Return where the run ends (m): without --penetration where there is room left
+    for the soil that rises inside."""
     return float(options.penetration or options.skirt - sizes.start_of(options.skirt))
 
 
@@ -289,8 +290,9 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
-    """Return a study with five friction angles or densities of each layer, clay in
-    step. Raises SuggestError where a layer has neither."""
+    """Return the text of a study with five friction angles or, of sand by its density,
+    relative densities of each layer; clay becomes stronger in step. Raises SuggestError
+    where a layer has neither."""
     sands = [layer for layer in layers if not clay.is_undrained(layer)]
     by_density = bool(sands) and all(map(walls.is_by_density, sands))
     quantity = "relative density" if by_density else "friction angle"
@@ -353,7 +355,8 @@ def density_after(layer: Layer, change: float) -> float:
 def scene_of(
     options: argparse.Namespace, layers: Sequence[Layer], file: Path, of_band: str = ""
 ) -> str:
-    """Return the text of a scene. of_band: which estimate it is."""
+    """Return the text of the scene of a file. of_band: which estimate it is, with a
+    comma before it."""
     level = sizes.LEVELS[options.error]
     body = sizes.Body(options.diameter, options.skirt, options.wall)
     start, end = begin_of(options), end_of(options)
@@ -391,7 +394,8 @@ def scene_of(
 
 @functools.lru_cache
 def entries_of_layers() -> dict[str, str]:
-    """Return the units of all entries of a layer by name. Raises RunError."""
+    """Return the units of all entries of a layer by their names, "" for none, as the
+    program knows them. Raises RunError."""
     said = query(["--set", "Soil/Number of layers=1", "--print-parameters"])
     section = said.partition("subsection Layer 1\n")[2]
     found, remark = {}, ""
@@ -425,7 +429,8 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
 
 
 def said_of(text: str, file: Path, copy: Path, said: str) -> str:
-    """Return what the program says of a refused scene, with its lines."""
+    """Return what the program says of a refused scene, of which no file is left: its
+    lines in the place of their numbers."""
     lines = text.splitlines()
 
     def line(match: re.Match[str]) -> str:

@@ -111,7 +111,8 @@ def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
 
 
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return law, strength and stiffness of a layer with one angle, or of clay."""
+    """Return law, strength and stiffness of a layer with one friction angle; clay, and
+    silt below the skirt, are undrained."""
     if e.layer.kind == SAND:
         return [
             Entry("Law", BY_STRESS),

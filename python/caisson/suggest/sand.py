@@ -47,7 +47,8 @@ FOREIGN = ("Friction angle", "Dilatancy angle", "Cohesion", "Porosity")
 
 
 def word_of(text: str) -> str:
-    """Return a word of WORDS of "Medium-dense sand"; other texts as they are."""
+    """Return a word of WORDS as it may be written: "Medium-dense sand" or "medium";
+    other texts as they are."""
     word = " ".join(re.sub(r"[-_]", " ", text.lower()).removesuffix("sand").split())
     return "medium dense" if word == "medium" else word
 
@@ -111,7 +112,8 @@ def sand_of(given: Mapping[str, str], law: str) -> list[Entry]:
 
 
 def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
-    """Return the entries of sand by its density: known and assumed ones."""
+    """Return the entries of sand of a relative density: those known, and what is
+    assumed."""
     by_name = {entry.name: entry for entry in known}
     limits = [
         by_name.get(name, Entry(name, f"{value:g}", OF_KARLSRUHE))
@@ -144,7 +146,8 @@ def modulus_of(angle: str) -> Entry | None:
 
 
 def at_rest(angle: str) -> list[Entry]:
-    """Return K0 for a critical angle (degrees); nothing for an expression."""
+    """Return K0 for a critical angle (degrees); nothing for an expression, whose K0 the
+    program finds."""
     try:
         k0 = 1 - math.sin(math.radians(float(angle)))
     except ValueError:

@@ -77,7 +77,8 @@ def to_two_digits(value: float) -> float:
 
 
 def step_of(size: float, most: float) -> float:
-    """Return the step of lengths of this size (m): a power of ten, at most as given."""
+    """Return the step to which a length of a body of this size is rounded (m): the
+    power of ten below it, at most the one given."""
     return float(min(most, 10.0 ** floor(log10(size) + 1e-9)))
 
 

@@ -169,7 +169,8 @@ def hint_for(part: str) -> str:
 
 
 def pair_of(part: str) -> tuple[str, str]:
-    """Return the words around the equals sign, or a state. Raises SuggestError."""
+    """Return the words around the equals sign. Sand may be named by its state alone.
+    Raises SuggestError."""
     word, equals, value = map(str.strip, part.partition("="))
     if not equals and sand.word_of(part) in sand.WORDS:
         return sand.SAND, part
@@ -287,7 +288,8 @@ def is_clay_by_angle(given: Mapping[str, str]) -> bool:
 
 
 def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
-    """Return the entries of undrained clay beside others. Raises SuggestError."""
+    """Return the entries of clay with an undrained strength (Pa), beside those given.
+    Raises SuggestError."""
     if wrong := [name for name in ("Friction angle", "Cohesion") if name in given]:
         raise SuggestError(
             f"--layer: {STRENGTH} is the strength of undrained clay, which has no"
@@ -308,7 +310,8 @@ def undrained(strength: str, given: Mapping[str, str]) -> list[Entry]:
 
 
 def doubt_of(weight: str, given: Mapping[str, str]) -> str:
-    """Return a warning where a unit weight (kN/m3) has two meanings."""
+    """Return a warning where a unit weight (kN/m3) may be that in water or that of the
+    wet soil, else nothing."""
     value = float(weight)
     if not DOUBTFUL[0] <= value <= DOUBTFUL[1]:
         return ""
@@ -325,7 +328,8 @@ def doubt_of(weight: str, given: Mapping[str, str]) -> str:
 
 
 def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
-    """Return the porosity of a unit weight (kN/m3). Raises SuggestError."""
+    """Return the porosity that a unit weight (kN/m3) stands for, with the density of
+    the grains. Raises SuggestError."""
     if wrong := [name for name in ("Porosity", *REPLACED) if name in given]:
         raise SuggestError(f"--layer: give {WEIGHT} or {', '.join(wrong)}, not both")
     solid = given.get("Solid density", ASSUMED["Solid density"])
@@ -348,7 +352,8 @@ def weight_of(weight: str, given: Mapping[str, str]) -> list[Entry]:
 
 
 def entries_of(given: dict[str, str], text: str) -> list[Entry]:
-    """Return entries given and assumed. Raises SuggestError if one is missing."""
+    """Return the entries given and those assumed. Raises SuggestError where one is
+    missing that cannot be assumed."""
     is_plain = (law := given.get("Law", MOHR_COULOMB)).startswith(MOHR_COULOMB)
     if not is_plain and law not in LAWS:
         return [Entry(*pair) for pair in given.items()]

@@ -39,7 +39,8 @@ def is_clay(layer: Layer) -> bool:
 
 
 def is_quick_clay(layer: Layer) -> bool:
-    """Return whether strength is that of clay in a quick test."""
+    """Return whether strength is that of clay in a quick test, a cohesion with a small
+    angle: drained soil has a larger one."""
     try:
         angle, cohesion = float(angle_of(layer)), layer.value("Cohesion")
     except ValueError:
@@ -48,7 +49,8 @@ def is_quick_clay(layer: Layer) -> bool:
 
 
 def friction_of(layer: Layer) -> Entry:
-    """Return the friction angle of walls in a layer. Raises SuggestError."""
+    """Return the friction angle between the walls and a layer. Raises SuggestError
+    where the soil has no angle."""
     if is_clay(layer):
         return Entry(FRICTION, "0", " # clay adheres")
     if is_by_density(layer):
@@ -71,13 +73,15 @@ def without_friction(layers: Sequence[Layer]) -> list[Layer]:
 
 
 def have_own(layers: Sequence[Layer]) -> bool:
-    """Return whether layers need a wall friction each."""
+    """Return whether each layer needs a wall friction of its own: clay adheres and
+    sand rubs, or an angle changes with depth."""
     values = [friction_of(layer).value for layer in without_friction(layers)]
     return len({value == "0" for value in values}) > 1 or any("*" in v for v in values)
 
 
 def wall_friction_of(given: float | None, layers: Sequence[Layer]) -> Entry:
-    """Return the wall friction where a layer has none. Raises SuggestError."""
+    """Return the friction angle of the walls where a layer has none of its own. given:
+    that of sand. Raises SuggestError."""
     layers = without_friction(layers)
     if given and layers and all(map(is_clay, layers)):
         raise SuggestError(
