@@ -150,7 +150,7 @@ class OtherScenes(ProgramTest):
                 "Verification/Checks": "",
             },
         )
-        self.assertIn("100 %", text)
+        self.assertIn("100.0 %", text)
 
 
 class Messages(ProgramTest):
