@@ -279,6 +279,23 @@ class Plan(unittest.TestCase):
             plan.choose(windows.NUMBERS)
             self.assertEqual((plan.chosen, len(plan.windows)), (chosen, number))
 
+    def test_one_depth(self) -> None:
+        """Runs with other numerics are compared where their window has its means."""
+        plan = command.Plan.__new__(command.Plan)
+        plan.size, plan.seconds = Size(1000, 100.0, 100.0), 10.0
+        plan.entries = {**Windows.THIN, "Time/Mass scaling": "1"}
+        plan.entries |= {"Time/Courant number": "0.8", "Grid/Bottom": "-9"}
+        plan.entries |= {"Grid/Outer radius": "9"}
+        zones = ("in path", "near", "far")
+        plan.entries |= {f"Material points/Per direction {zone}": "2" for zone in zones}
+        with unittest.mock.patch.object(plan, "run"):
+            for number in windows.NUMBERS:
+                plan.windows = windows.windows_of(plan.entries, number)
+                _, terms = plan.changed(1.0, "default")
+                self.assertEqual(len(terms), 4)
+                for term in terms:
+                    self.assertIn(term["at"], plan.depths)
+
     def test_scenes_without_other_meshes(self) -> None:
         entries = {"Installation/Directory": "", "Time/Time step": "auto"}
         command.check_entries(entries)

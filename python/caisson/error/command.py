@@ -337,7 +337,8 @@ class Plan:
         middle = len(self.windows) // 2
         one = self.windows[middle : middle + 1]
         share = 1 / max(1, len(self.windows))
-        at = {"at": one[0].depth} if one else {}
+        # a single window has its means at the ends of the way
+        at = {"at": one[0].depth if middle else self.depths[0]} if one else {}
         for name, (entries, factor) in changes_of(self.entries).items():
             runs.append(self.run(name, {**entries, **self.mesh(r)}, one))
             runs[-1].size = self.sized(r, COST[name] * share)
