@@ -103,7 +103,8 @@ class ByHand(unittest.TestCase):
 
     def test_ring_divides_the_wall(self) -> None:
         """One that suffices, in the part that buckles, is as the spacing of rings
-        that are known; a weak one does not count, nor one below."""
+        that are known; a weak one does not count, nor one below, nor one among
+        rings that are known."""
         h, weight = 5.0, 6.5e6  # 4 m are free and 4.75 m in the soil
         plain = shell.limit_suction(BUCKET, h, weight)
         for ring, counts in (
@@ -119,6 +120,10 @@ class ByHand(unittest.TestCase):
                 self.assertGreater(found, 1.5 * plain)
             else:
                 self.assertEqual(found, plain)
+        known = BUCKET._replace(rings=2.0)
+        more = known._replace(stiffeners=(Ring(1.0, 0.4, 0.05),))
+        limits = [shell.limit_suction(wall, h, weight) for wall in (known, more)]
+        self.assertEqual(*limits)
 
     def test_tension(self) -> None:
         """Without compression there is nothing that buckles, but steel yields."""

@@ -82,7 +82,10 @@ class Wall(NamedTuple):
         return min(self.free_length(h) + fixed, self.rings)
 
     def stiffeners_at(self, h: float) -> list[Ring]:
-        """Return those in the part that buckles at an embedment (m)."""
+        """Return those in the part that buckles at an embedment (m); none beside rings
+        of a spacing, as the part between two of these decides."""
+        if self.rings < inf:
+            return []
         length = self.buckling_length(h)
         return [ring for ring in self.stiffeners if ring.below_lid < length]
 
