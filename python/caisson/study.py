@@ -382,6 +382,7 @@ def execute(
             run.execute(again, time_limit, ranks, progress.say)
         except (RunError, OSError) as error:
             run.trouble = f"{type(error).__name__}: {error}"
+            progress.say(f"{run.study} {run.name}: {run.trouble}".lstrip())
         progress.end(number)
 
     progress = Progress([run.duration for run in ordered], share_of=share_of)

@@ -170,6 +170,7 @@ class Plan:
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
+            self.keep_size()  # so that the budget of this message is enough
             raise StudyError(
                 f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
@@ -257,6 +258,7 @@ class Plan:
 
     def keep_size(self) -> None:
         """Write the size of the scene for later calls."""
+        self.results.mkdir(parents=True, exist_ok=True)
         key = self.run("default", {}).run.key
         content = {"key": key, **dataclasses.asdict(self.size)}
         disk.write(self.results / SIZE, json.dumps(content))
@@ -358,7 +360,6 @@ class Plan:
 
     def execute(self, runs: list[StudyRun], again: bool) -> None:
         """Run what is not complete. Raises StudyError where a run has no result."""
-        self.results.mkdir(parents=True, exist_ok=True)
         self.keep_size()
         execute(shares_of(to_do_of(runs, again), None), again, needs_all=True)
         if missing := [run for run in runs if not run.run.is_complete()]:
