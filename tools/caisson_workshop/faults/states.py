@@ -54,7 +54,7 @@ def state_of(directory: Path) -> str:
     if not info.exists():
         return ""
     lines = info.read_text(encoding="utf-8", errors="replace").splitlines()
-    # not which of the two files it is, nor its bytes and those of others, nor times, nor
+    # not which of the two files it is, nor bytes of it and others, nor times, nor
     # the warning of a file that was changed
     ours = re.compile(
         r"(?!file |checksum_of_|bytes |fingerprint_of_|wall_time |seconds_of_"
