@@ -265,10 +265,8 @@ namespace CaissonMPM
   {
     const unsigned int n =
       partitioner->locally_owned_size() + partitioner->n_ghost_indices();
-    node_r.assign(n, 0.);
-    node_z.assign(n, 0.);
-    node_start.assign(n, Point<dim>());
-    node_rate.assign(n, Tensor<1, dim>());
+    for (NodalData *const field : {&node_start, &node_rate, &node_position})
+      reinit(*field, dim);
     node_sides.assign(n, 0);
     vertices.clear();
     std::vector<bool> seen(n, false);
@@ -282,9 +280,14 @@ namespace CaissonMPM
           const unsigned int i = b.column + b.size * (k % 2),
                              j = b.row + b.size * (k / 2);
           seen[node]           = true;
-          node_start[node]     = lines_.node_start(i, j);
-          node_rate[node]      = lines_.node_rate(i, j);
           node_sides[node]     = lines_.sides_of(i, j);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              node_start.local_element(dim * node + d) =
+                lines_.node_start(i, j)[d];
+              node_rate.local_element(dim * node + d) =
+                lines_.node_rate(i, j)[d];
+            }
           vertices.emplace_back(node, &iterators[c]->vertex(k));
         }
   }
@@ -322,22 +325,27 @@ namespace CaissonMPM
   void
   BackgroundGrid::prepare_motion(const double travel)
   {
-    for (unsigned int n = 0; n < n_nodes(); ++n)
-      {
-        node_r[n] = node_start[n][radial] + node_rate[n][radial] * travel;
-        node_z[n] = node_start[n][vertical] + node_rate[n][vertical] * travel;
-      }
+    // each rank knows the start and the rate of its ghost nodes
+    double *const       x    = node_position.begin();
+    const double *const from = node_start.begin(), *const rate =
+                                                     node_rate.begin();
+    for (unsigned int i = 0; i < dim * n_nodes(); ++i)
+      x[i] = from[i] + travel * rate[i];
     auto &next = geometries[1 - current];
     for (unsigned int c = 0; c < n_cells(); ++c)
       {
-        const auto  &n    = nodes[c].node;
-        const double left = node_z[n[0]], right = node_z[n[1]];
-        next[c] = {node_r[n[0]],
-                   node_r[n[1]] - node_r[n[0]],
-                   left,
-                   right,
-                   node_z[n[2]] - left,
-                   node_z[n[3]] - right};
+        const auto r_at = [&](const int k) {
+          return x[dim * nodes[c].node[k]];
+        };
+        const auto z_at = [&](const int k) {
+          return x[dim * nodes[c].node[k] + vertical];
+        };
+        next[c] = {r_at(0),
+                   r_at(1) - r_at(0),
+                   z_at(0),
+                   z_at(1),
+                   z_at(2) - z_at(0),
+                   z_at(3) - z_at(1)};
       }
     is_prepared = true;
   }
@@ -349,7 +357,7 @@ namespace CaissonMPM
     is_prepared = false;
     current     = 1 - current;
     for (const auto &[node, vertex] : vertices)
-      *vertex = Point<dim>(node_r[node], node_z[node]);
+      *vertex = Point<dim>(r_of(node), z_of(node));
   }
 
   void

@@ -158,7 +158,7 @@ namespace CaissonMPM
     unsigned int
     n_nodes() const
     {
-      return node_r.size();
+      return node_sides.size();
     }
     /** Return the number of nodes that this rank owns: those with a smaller
      * local number. What is summed over the nodes of all ranks must be summed
@@ -265,12 +265,12 @@ namespace CaissonMPM
     double
     r_of(const unsigned int node) const
     {
-      return node_r[node];
+      return node_position.local_element(dim * node + radial);
     }
     double
     z_of(const unsigned int node) const
     {
-      return node_z[node];
+      return node_position.local_element(dim * node + vertical);
     }
 
     bool
@@ -339,11 +339,9 @@ namespace CaissonMPM
 
     HangingNodes hanging_nodes_;
 
-    // x = node_start + node_rate travel, r and z
-    std::vector<double>                                        node_r, node_z;
-    std::vector<dealii::Point<dim>>                            node_start;
-    std::vector<dealii::Tensor<1, dim>>                        node_rate;
-    std::vector<unsigned int>                                  node_sides;
+    // FE_Q fields of r and z: position = start + travel * rate
+    NodalData                 node_start, node_rate, node_position;
+    std::vector<unsigned int> node_sides;
     std::vector<std::pair<unsigned int, dealii::Point<dim> *>> vertices;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
