@@ -20,7 +20,7 @@ namespace CaissonMPM
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-    using Values = std::function<double(const MaterialPoint &)>;
+    using Quantity = std::function<double(const MaterialPoint &)>;
 
     /**
      * The void ratio of points, or unknown; of the soil itself, without the gap
@@ -29,7 +29,7 @@ namespace CaissonMPM
      * part of the soil: e would be below 0, or so high that the grains could
      * not touch. Soil without pores at the start has no void ratio.
      */
-    Values
+    Quantity
     void_ratio(const Soil &soil)
     {
       return [materials = soil.kernel_materials()](const MaterialPoint &p) {
@@ -45,7 +45,7 @@ namespace CaissonMPM
     }
 
     /** The yield stress of points (Pa), unknown where their law has none. */
-    Values
+    Quantity
     yield_stress(const std::vector<Kernels::Material> &materials)
     {
       return [materials](const MaterialPoint &p) {
@@ -86,14 +86,12 @@ namespace CaissonMPM
       return found == slots.end() ? Slot{0, 1} : found->second;
     }
 
-    using Values = std::function<double(const MaterialPoint &)>;
-
     /** An array that is written, and how its components follow from a point. */
     struct FrameField
     {
-      std::string                                  name;
-      unsigned int                                 n_components = 1;
-      std::vector<std::pair<unsigned int, Values>> parts        = {};
+      std::string                                    name;
+      unsigned int                                   n_components = 1;
+      std::vector<std::pair<unsigned int, Quantity>> parts        = {};
     };
 
     /** The quantities of points that @p is_written chooses. */
@@ -126,7 +124,7 @@ namespace CaissonMPM
 
     /** The same before anything happens, at the present place of the point;
      * unknown above the ground. */
-    Values
+    Quantity
     vertical_stress_at_rest(const Soil &soil)
     {
       return [&soil](const MaterialPoint &p) {
@@ -138,7 +136,7 @@ namespace CaissonMPM
     }
 
     /** The number of the layer, from 1. */
-    Values
+    Quantity
     layer(const Soil &soil)
     {
       return [&soil](const MaterialPoint &p) {
@@ -175,12 +173,12 @@ namespace CaissonMPM
                      const double circumference,
                      const bool   with_pore_pressure)
     {
-      auto         fields  = fields_of([&](const PointField &field) {
+      auto           fields  = fields_of([&](const PointField &field) {
         return field.in_frames == InFrames::drawn ||
                (with_pore_pressure && is_pore_pressure(field));
       });
-      const Values at_rest = vertical_stress_at_rest(soil);
-      const std::pair<std::string, Values> more[] = {
+      const Quantity at_rest = vertical_stress_at_rest(soil);
+      const std::pair<std::string, Quantity> more[] = {
         {"void_ratio", void_ratio(soil)},
         {"whole_volume_m3",
          [=](const MaterialPoint &p) { return circumference * p.volume; }},
@@ -202,7 +200,7 @@ namespace CaissonMPM
     std::vector<double>
     means_in_cells(const MaterialPoints &points,
                    const unsigned int    n_cells,
-                   const Values         &quantity)
+                   const Quantity       &quantity)
     {
       std::vector<double> mean(n_cells, 0.), volume(n_cells, 0.);
       points.for_each([&](const MaterialPoint &p, const unsigned int cell) {
@@ -291,7 +289,7 @@ namespace CaissonMPM
             i += array.n_components;
           }
     };
-    const auto means = [&](const Values &quantity) {
+    const auto means = [&](const Quantity &quantity) {
       return [mean = means_in_cells(points, grid.n_cells(), quantity)](
                const unsigned int cell) { return mean[cell]; };
     };

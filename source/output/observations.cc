@@ -19,7 +19,7 @@ namespace CaissonMPM
   using namespace dealii;
 
   /** What the points of an observation have: [n_points] each. */
-  struct Samples
+  struct PointSamples
   {
     std::vector<double> value, volume, mass, shape;
   };
@@ -37,7 +37,7 @@ namespace CaissonMPM
     };
 
     /** Null where one point is asked for instead of all. */
-    double (*value)(const Observation &, const Samples &);
+    double (*value)(const Observation &, const PointSamples &);
     Operand operand;
   };
 
@@ -47,8 +47,8 @@ namespace CaissonMPM
 
     /** sum w v / sum w. */
     double
-    mean_of(const std::vector<double> &values,
-            const std::vector<double> &weight)
+    weighted_mean_of(const std::vector<double> &values,
+                     const std::vector<double> &weight)
     {
       double sum = 0., total = 0.;
       for (std::size_t i = 0; i < values.size(); ++i)
@@ -60,34 +60,34 @@ namespace CaissonMPM
     }
 
     double
-    mean(const Observation &, const Samples &s)
+    mean(const Observation &, const PointSamples &s)
     {
-      return mean_of(s.value, s.volume);
+      return weighted_mean_of(s.value, s.volume);
     }
 
     double
-    rms(const Observation &, const Samples &s)
+    rms(const Observation &, const PointSamples &s)
     {
       std::vector<double> squares;
       for (const double value : s.value)
         squares.push_back(value * value);
-      return std::sqrt(mean_of(squares, s.volume));
+      return std::sqrt(weighted_mean_of(squares, s.volume));
     }
 
     double
-    smallest(const Observation &, const Samples &s)
+    smallest(const Observation &, const PointSamples &s)
     {
       return *std::min_element(s.value.begin(), s.value.end());
     }
 
     double
-    largest(const Observation &, const Samples &s)
+    largest(const Observation &, const PointSamples &s)
     {
       return *std::max_element(s.value.begin(), s.value.end());
     }
 
     double
-    quantile(const Observation &o, const Samples &s)
+    quantile(const Observation &o, const PointSamples &s)
     {
       std::vector<std::pair<double, double>> sorted;
       double                                 total = 0.;
@@ -108,7 +108,7 @@ namespace CaissonMPM
     }
 
     double
-    projection(const Observation &, const Samples &s)
+    projection(const Observation &, const PointSamples &s)
     {
       double product = 0., square = 0.;
       for (std::size_t i = 0; i < s.value.size(); ++i)
@@ -138,10 +138,10 @@ namespace CaissonMPM
       return o.quantity(nearest);
     }
 
-    Samples
+    PointSamples
     sample(const Observation &o, const AllPoints &points, const double time)
     {
-      Samples samples;
+      PointSamples samples;
       points.for_each([&](const MaterialPoint &p) {
         if (o.quantity.is_missing(p) ||
             (!o.region.empty() && o.region(p.initial_position, time) == 0.))
