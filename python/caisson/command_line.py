@@ -154,5 +154,8 @@ def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
     sys.stderr = cast(TextIO, PlainText(sys.stderr))
     try:
         sys.exit(main(sys.argv[1:]))
-    except (BrokenPipeError, KeyboardInterrupt):  # as of `| head`
+    except BrokenPipeError:  # as of `| head`
+        os._exit(1)
+    except KeyboardInterrupt:
+        print("\ninterrupted; runs that have ended are kept", file=sys.stderr)
         os._exit(1)

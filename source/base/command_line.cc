@@ -133,6 +133,10 @@ namespace CaissonMPM
       result.output_directory =
         value_or_default<std::string>(options, "output-directory");
       result.explain = value_or_default<std::string>(options, "explain");
+      if (options.count("explain") > 0 && result.explain.empty())
+        throw BadInput(
+          "--explain needs a word, for example --explain friction; "
+          "--print-parameters prints all entries.");
       result.print_parameters = options.count("print-parameters") > 0;
       result.validate         = options.count("validate") > 0;
       result.strict           = options.count("strict") > 0;

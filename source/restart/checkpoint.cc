@@ -210,9 +210,9 @@ namespace CaissonMPM
       const std::string text = read_text(info_file(directory));
       if (text.empty())
         throw BadInput("there is no checkpoint in " + directory +
-                       " to resume from (no file checkpoint.info). Give the "
-                       "output directory of the run that was stopped, or run "
-                       "without --restart.");
+                       " to resume from (checkpoint.info is missing or "
+                       "empty). Give the output directory of the run that was "
+                       "stopped, or run without --restart.");
       const auto info = parse_info(text);
       if (!info)
         report_damaged(directory);
