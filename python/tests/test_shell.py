@@ -114,6 +114,8 @@ class ByHand(unittest.TestCase):
         ):
             wall = BUCKET._replace(stiffeners=(ring,))
             found = shell.limit_suction(wall, h, weight)
+            beside = BUCKET._replace(stiffeners=(Ring(2.0, 0.05, 0.05), ring))
+            self.assertEqual(shell.limit_suction(beside, h, weight), found)
             if counts:
                 half = BUCKET._replace(rings=4.375)
                 self.check(found, shell.limit_suction(half, h, weight))

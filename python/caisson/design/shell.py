@@ -135,16 +135,21 @@ def check_between(
     wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
 ) -> float:
     """Return the same of the longest length between stiffeners, or what one of these
-    needs over what it has, if that is more."""
+    needs over what it has, if that is more. The weakest ones count as none where that
+    is better."""
     axial, pressure = weight + suction * wall.area_inside, suction + more
-    rings = wall.stiffeners_at(h)
-    edges = [0.0, *(ring.below_lid for ring in rings), wall.buckling_length(h)]
-    checks = [unity_check(wall, float(max(np.diff(edges))), pressure, axial)]
     steel = wall.yield_strength, wall.youngs_modulus, POISSON_RATIO
-    for above, ring, below in zip(edges, rings, edges[2:]):
-        near = Shell(wall.radius, wall.thickness, (below - above) / 2, *steel)
-        checks.append(near.demand(ring, pressure, axial))
-    return min(max(checks), MANY)
+    rings, found = list(wall.stiffeners_at(h)), float(MANY)
+    while rings:
+        edges = [0.0, *(ring.below_lid for ring in rings), wall.buckling_length(h)]
+        demands = list[float]()
+        for above, ring, below in zip(edges, rings, edges[2:]):
+            near = Shell(wall.radius, wall.thickness, (below - above) / 2, *steel)
+            demands.append(near.demand(ring, pressure, axial))
+        longest = unity_check(wall, float(max(np.diff(edges))), pressure, axial)
+        found = min(found, max(longest, *demands))
+        del rings[int(np.argmax(demands))]
+    return found
 
 
 def limits_at(

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.collections import EllipseCollection, PolyCollection, TriMesh
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
@@ -119,15 +119,16 @@ def paint_smoothly(
     """Draw a field between the means of the cells [n], on both sides of the axis; gray
     where the soil has no value."""
     polygons = frame.means.polygons
+    known, cmap = np.isfinite(values), style["cmap"]
     axes.add_collection(
         PolyCollection(
-            np.concatenate([polygons * [side, 1] for side in sides]),
+            np.concatenate([polygons[~known] * [side, 1] for side in sides]),
             facecolors=NO_VALUE,
             edgecolors=NO_VALUE,
             linewidths=0.4,
-        )
+        ),
+        autolim=False,
     )
-    known, cmap = np.isfinite(values), style["cmap"]
     norm = style.get("norm") or Normalize(style["vmin"], style["vmax"])
     if not known.any():
         return ScalarMappable(norm, cmap)
@@ -138,17 +139,19 @@ def paint_smoothly(
     triangles = np.concatenate([number + [k, (k + 1) % 4, 4] for k in range(4)])
     field = np.column_stack([at_corners, values[known]]).ravel()
     place = place.reshape(-1, 2)
-    return axes.tripcolor(
+    painted = TriMesh(
         Triangulation(
             np.concatenate([side * place[:, 0] for side in sides]),
             np.concatenate([place[:, 1] for _ in sides]),
             np.concatenate([triangles + i * len(place) for i in range(len(sides))]),
         ),
-        np.tile(field, len(sides)),
-        shading="gouraud",
+        array=np.tile(field, len(sides)),
         cmap=cmap,
         norm=norm,
     )
+    # Axes.tripcolor() would also make a path of each triangle, for the limits
+    axes.add_collection(painted, autolim=False)
+    return painted
 
 
 def tops_of(scene: dict[str, Any]) -> list[float]:
