@@ -18,6 +18,7 @@ scene:
 
     python3 -m lab.verification.consolidation
 """
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -51,7 +52,7 @@ def kozeny_carman(void_ratio: float) -> Callable[[Array], Array]:
     return permeability
 
 
-@dataclass
+@dataclass(frozen=True)
 class Column:
     """A column of n_cells layers of the same initial height, from the base up, under
     a load that grows evenly until ramp and is constant then; 0 for one at once."""
@@ -151,6 +152,7 @@ def times_to(end: float, ramp: float, n: int = 60) -> list[float]:
     return [*(ramp * x**2), *(ramp + (end - ramp) * x**2)]
 
 
+@functools.lru_cache(maxsize=2)
 def observations(column: Column, end: float) -> tuple[Array, Array, Array]:
     """Return times and what observed() gives for them [n_times]."""
     times = times_to(end, column.ramp)

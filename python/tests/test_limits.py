@@ -175,6 +175,7 @@ class Governing(WithPage):
 
     def test_load_of_a_shell(self) -> None:
         """wall_pressure.csv has 25 kPa down to the mudline at 4 m, and 20 below."""
+        self.no_pictures.stop()
         run = self.run_of()
         z = np.linspace(0.1, 4.0, 9)
         walls = {"time_s": 4.0 + 0 * z, "penetration_m": 4.0 + 0 * z, "depth_m": z}

@@ -10,6 +10,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+import unittest.mock as mock
 from pathlib import Path
 from typing import Any
 
@@ -110,12 +111,16 @@ def leave_run(path: Path, summary: dict[str, Any] | None) -> None:
 
 
 class WithPage(unittest.TestCase):
-    """A made-up run, and its page."""
+    """A made-up run, and its page: without pictures, which take seconds, unless a test
+    stops `no_pictures`."""
 
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.path = Path(temporary.name)
+        self.no_pictures = mock.patch("caisson.report.page.plot.draw")
+        self.no_pictures.start()
+        self.addCleanup(self.no_pictures.stop)
 
     def page(self, summary: dict[str, Any] | None = None) -> str:
         leave_run(self.path, summary)
@@ -127,6 +132,7 @@ class Report(WithPage):
 
     def test_all_is_in_the_page(self) -> None:
         """Nothing is loaded from elsewhere, and a title cannot break the page."""
+        self.no_pictures.stop()
         page = self.page(SUMMARY)
         tags = re.findall("<(?!script>)[a-z][^>]*>", page.split("<script", 1)[0])
         links = re.findall(r"""(?:src|href)=["']?([^"' >]{1,20})""", "".join(tags))

@@ -148,6 +148,7 @@ class Verdicts(WithPage):
 
     def test_clay(self) -> None:
         """A run without exit gradients has a page and tables."""
+        self.no_pictures.stop()
         self.run_of()
         self.change_history(
             exit_gradient_wall=0, exit_gradient_axis=0, critical_gradient=0

@@ -30,6 +30,9 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
         "Grid/Cell height": 0.09,
         "Grid/Fine width": 0.03,
         "Grid/Fine height": 0.06,
+        "Time/Courant number": 0.8,
+        "Time/Mass scaling": 1,
+        "Time/Inertia tolerance": 1.6,
         "Time/End penetration": 0.35,
     }
     scene = str(scene_of("verification", "cone_tresca"))

@@ -29,6 +29,7 @@ SI units, angles in degrees.
 """
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import exp, inf, nan, pi, radians, tan
 from typing import NamedTuple
 
@@ -48,6 +49,7 @@ def bearing_factor_surcharge(phi: float) -> float:
     return exp(pi * tan(radians(phi))) * tan(radians(45 + phi / 2)) ** 2
 
 
+@lru_cache(maxsize=256)
 def bearing_factor_weight(phi: float) -> float:
     """Return N_gamma; 0, on the safe side, outside the table of 15 to 45 degrees.
 
@@ -203,13 +205,15 @@ class Caisson:
 
     def tip(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
         """Return the force on the tip, with a flat end of the wall."""
-        low, high = sorted(
-            self._go_down(wall, h, enhanced, added)[0]
-            for wall, added in (
-                (self.inner, seepage.inner),
-                (self.outer, seepage.outer),
-            )
-        )
+        inner, _ = self._go_down(self.inner, h, enhanced, seepage.inner)
+        outer, _ = self._go_down(self.outer, h, enhanced, seepage.outer)
+        return self._tip_between(inner, outer, h, seepage)
+
+    def _tip_between(
+        self, inner: float, outer: float, h: float, seepage: Seepage
+    ) -> float:
+        """Return the force on the tip from the vertical stresses beside it (Pa)."""
+        low, high = sorted((inner, outer))
         layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
         n_q = bearing_factor_surcharge(layer.friction_angle)
         n_gamma = bearing_factor_weight(layer.friction_angle)
@@ -225,8 +229,9 @@ class Caisson:
 
     def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
         """Return the friction on both walls and the force on the tip."""
-        parts = (self.outer_friction, self.inner_friction, self.tip)
-        return sum(part(h, enhanced, seepage) for part in parts)
+        inner, inside = self._go_down(self.inner, h, enhanced, seepage.inner)
+        outer, outside = self._go_down(self.outer, h, enhanced, seepage.outer)
+        return outside + inside + self._tip_between(inner, outer, h, seepage)
 
 
 class Assumptions(NamedTuple):

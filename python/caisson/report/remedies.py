@@ -71,6 +71,8 @@ class Planned:
         parts = [float(values[-1]) for values in list(found.forces.values())[:3]]
         total = self.required * self.sizes.area + weight
         self.forces = [total * part / sum(parts) for part in parts]
+        self._by_methods: dict[tuple[float, float], tuple[float, dict[str, float]]]
+        self._by_methods = {}
         self.piping = self.by_methods(self.sizes)[0]
         wall = limits.wall_of(run)
         self.pressures = shell.pressures_of(run, wall) if wall else {}
@@ -93,14 +95,19 @@ class Planned:
         return float(np.polyval(line, self.depth))
 
     def by_methods(self, sizes: Sizes) -> tuple[float, dict[str, float]]:
-        """Return the suction of piping, nan without one, and those of the plug."""
+        """Return the suction of piping, nan without one, and those of the plug, which
+        do not depend on the weight."""
+        size = sizes.diameter, sizes.wall
+        if size in self._by_methods:
+            return self._by_methods[size]
         new = {"diameter_m": sizes.diameter, "wall_thickness_m": sizes.wall}
         site = theory.site_of(self.run)
         site = site._replace(scene={**site.scene, **new})
         known = suction_methods.answers_of(site, np.array([self.depth]))
         piping = known.suctions.get(suction_methods.PIPING, np.array([np.nan]))
         plug = {name: float(values[0]) / 1e3 for name, values in known.plug.items()}
-        return float(piping[0]) / 1e3, plug
+        self._by_methods[size] = float(piping[0]) / 1e3, plug
+        return self._by_methods[size]
 
     def needs(self, sizes: Sizes) -> float:
         """Return the required suction, at least 0."""
