@@ -34,6 +34,9 @@ COARSE: Entries = {
     "Grid/Bottom": -8,
     "Grid/Fine width": 0.3,
     "Grid/Fine height": 0.3,
+    "Material points/Per direction in path": 2,
+    "Material points/Per direction near": 2,
+    "Material points/Per direction far": 2,
 }
 # prm/springs.prm has a smaller one, for the first millimeter
 QUICK: Entries = {"Time/Inertia tolerance": 0.4}

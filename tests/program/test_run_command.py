@@ -95,7 +95,7 @@ class Run(ProgramTest):
             lines = [
                 f"include {scene('jack')}",
                 f"subsection Output\nset Directory = {path}/own{end}\nend",
-                "subsection Time\nset End penetration = 0.7\nend",
+                "subsection Time\nset End penetration = 0.56\nend",
                 f"subsection Soil\nsubsection Layer 1\nset Friction angle = {angle}",
                 "end\nend",
             ]
@@ -109,7 +109,7 @@ class Run(ProgramTest):
         path = best.parent
         text = self.run_scene_and_draw(SUCCESS, "--band", best)
         self.assertEqual(text.count("from its start"), 3)
-        self.assertRegex(text, "With low resistance .* at 0.7 m; with high resistance")
+        self.assertRegex(text, "With low resistance .* at 0.56 m; with high resistance")
         self.assert_drawn(path / "own")
         page = (path / "own/report.html").read_text(encoding="utf-8")
         self.assertTrue("total, low to high resistance" in page)

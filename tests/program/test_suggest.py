@@ -67,7 +67,7 @@ class Sizes(SuggestTest):
         """Sand, clay and both, small and large: the first scenes of the laboratory run
         without a warning of what the tool has chosen."""
         options = argparse.Namespace(
-            results=self.made_directory(), validate=False, walls=0.2, limit=1000
+            results=self.made_directory(), validate=False, walls=0.05, limit=1000
         )
         for number in range(suggested.QUICK):
             case = suggested.case_of(suggested.SEED, number)
@@ -229,6 +229,7 @@ class Layers(SuggestTest):
         zone = read_parameters([str(path / "own.prm")])["Grid/Moving zone below tip"]
         self.assertAlmostEqual(float(zone), 2.45)
         entries = {"Time/End penetration": 0.6, "Output/Frame penetrations": ""}
+        entries |= {f"Material points/Per direction {at}": 2 for at in ("near", "far")}
         where = ["--output-directory", path / "run"]
         self.run_program(SUCCESS, path / "own.prm", *where, entries=entries)
         last = history(path / "run")[-1]
