@@ -157,5 +157,5 @@ def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
     except BrokenPipeError:  # as of `| head`
         os._exit(1)
     except KeyboardInterrupt:
-        print("\ninterrupted; runs that have ended are kept", file=sys.stderr)
+        print("\ninterrupted; what is finished is kept", file=sys.stderr)
         os._exit(1)

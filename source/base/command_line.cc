@@ -133,7 +133,8 @@ namespace CaissonMPM
       result.output_directory =
         value_or_default<std::string>(options, "output-directory");
       result.explain = value_or_default<std::string>(options, "explain");
-      if (options.count("explain") > 0 && result.explain.empty())
+      if (options.count("explain") > 0 &&
+          result.explain.find_first_not_of(' ') == std::string::npos)
         throw BadInput(
           "--explain needs a word, for example --explain friction; "
           "--print-parameters prints all entries.");

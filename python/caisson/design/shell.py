@@ -32,6 +32,7 @@ l is weighted with the square of a half wave, as the work of the pressure is whe
 wall buckles. SI units, but for columns; depths are below the mudline.
 """
 from collections.abc import Callable, Sequence
+from itertools import chain, combinations
 from math import inf, pi, sqrt
 from typing import NamedTuple
 
@@ -135,21 +136,22 @@ def check_between(
     wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
 ) -> float:
     """Return the same of the longest length between stiffeners, or what one of these
-    needs over what it has, if that is more. The weakest ones count as none where that
-    is better."""
+    needs over what it has, if that is more: the least of any choice of stiffeners, as
+    one that is too weak counts as none."""
     axial, pressure = weight + suction * wall.area_inside, suction + more
     steel = wall.yield_strength, wall.youngs_modulus, POISSON_RATIO
-    rings, found = list(wall.stiffeners_at(h)), float(MANY)
-    while rings:
+
+    def check(rings: Sequence[Ring]) -> float:
         edges = [0.0, *(ring.below_lid for ring in rings), wall.buckling_length(h)]
-        demands = list[float]()
+        found = [unity_check(wall, float(max(np.diff(edges))), pressure, axial)]
         for above, ring, below in zip(edges, rings, edges[2:]):
             near = Shell(wall.radius, wall.thickness, (below - above) / 2, *steel)
-            demands.append(near.demand(ring, pressure, axial))
-        longest = unity_check(wall, float(max(np.diff(edges))), pressure, axial)
-        found = min(found, max(longest, *demands))
-        del rings[int(np.argmax(demands))]
-    return found
+            found.append(near.demand(ring, pressure, axial))
+        return max(found)
+
+    rings = wall.stiffeners_at(h)
+    choices = [combinations(rings, n + 1) for n in range(len(rings))]
+    return min(MANY, *(check(some) for some in chain(*choices)))
 
 
 def limits_at(
