@@ -10,6 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, PolyCollection, TriMesh
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.tri import Triangulation
 
 from caisson.curves import depth_at
@@ -251,7 +252,8 @@ def panels(
     wide as a page or narrower, and the places of color bars below them. note: the
     height of a text below these (inches)."""
     left, gap, above, foot = 0.55, 0.2, 0.45, note + 1.25  # inches
-    width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, 3.6)
+    most = 3.6 if n > 1 else 4.8  # which the names of two color bars take
+    width = min((PAGE - left - 0.1 - (n - 1) * gap) / n, most)
     height = width * (window[2] - window[1]) / (2 * window[0])
     height = min(max(height, 1.2), 5.0)
     across, high = left + n * (width + gap) - gap + 0.1, foot + height + above
@@ -415,7 +417,9 @@ def draw_displacement(
         label = "plastic deviatoric strain (-)"
         fields.append((label, soil["plastic_deviatoric"], "magma_r"))
     n = 1 + len(fields) if box else 1
-    figure = Figure(figsize=(PAGE, 2.9), layout="constrained")
+    # the layout takes the titles of panels of unequal height to be lower
+    layout = ConstrainedLayoutEngine(rect=(0, 0, 1, 0.94))
+    figure = Figure(figsize=(PAGE, 3.05), layout=layout)
     axes = figure.subplots(1, n, squeeze=False)[0]
     means = frame.means.of(moved)
     highest = nice_above(np.percentile(means[inside(frame, window)], 99))
