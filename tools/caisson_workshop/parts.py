@@ -18,8 +18,7 @@ from pathlib import Path
 
 from caisson.paths import BUILD, ROOT
 
-# tests at a time: one more than there are cores, as some wait
-JOBS = str(len(os.sched_getaffinity(0)) + 1)
+CORES = str(len(os.sched_getaffinity(0)))
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Result:
     seconds: float = 0.0
 
 
-CTEST = ["ctest", "--test-dir", str(BUILD), "-j", JOBS, "--output-on-failure"]
+CTEST = ["ctest", "--test-dir", str(BUILD), "-j", CORES, "--output-on-failure"]
 PARTS = (
     Part("lint", ["tools/lint"], is_beside=True),
     Part("build", ["scripts/build"]),

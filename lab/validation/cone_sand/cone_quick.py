@@ -17,22 +17,26 @@ CLAY = cone_clay.Case()
 DENSITY, VERTICAL = 0.77, 100.0  # of the sand; kPa
 # of the factor in clay, beyond the formulas: two cells are 4 % above the limit
 MARGIN = 0.06
+# long steps
+LIGHT = {
+    "Time/Courant number": 0.8,
+    "Time/Mass scaling": 1,
+    "Time/Inertia tolerance": 1.6,
+}
 
 
 def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return both runs."""
     coarse: dict[str, Any] = {"Rigid body/Cells across the wall": CELLS}
-    clay = {**CLAY.entries(), **coarse, "Verification/Checks": ""}
+    clay = {**CLAY.entries(), **coarse, **LIGHT, "Verification/Checks": ""}
     sand = {
         **cone_sand.entries_of(DENSITY, VERTICAL),
         **coarse,
+        **LIGHT,
         "Grid/Cell width": 0.09,
         "Grid/Cell height": 0.09,
         "Grid/Fine width": 0.03,
         "Grid/Fine height": 0.06,
-        "Time/Courant number": 0.8,
-        "Time/Mass scaling": 1,
-        "Time/Inertia tolerance": 1.6,
         "Time/End penetration": 0.35,
     }
     scene = str(scene_of("verification", "cone_tresca"))
