@@ -18,7 +18,7 @@ DENSITY, VERTICAL = 0.77, 100.0  # of the sand; kPa
 # of the factor in clay, beyond the formulas: two cells are 4 % above the limit
 MARGIN = 0.06
 # long steps
-LIGHT = {
+LIGHT: dict[str, Any] = {
     "Time/Courant number": 0.8,
     "Time/Mass scaling": 1,
     "Time/Inertia tolerance": 1.6,
