@@ -136,6 +136,8 @@ def read_parameters(
         elif line.startswith("set "):
             name, _, value = line[4:].partition("=")
             entries["/".join([*sections, name.strip()])] = value.strip()
+    if sections or "Output/Directory" not in entries:
+        raise RunError(f"{program} has not printed all entries: ...{output[-200:]}")
     return entries
 
 

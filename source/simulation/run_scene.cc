@@ -97,6 +97,15 @@ namespace CaissonMPM
                      (mistakes.size() == 1 ? " warning" : " warnings") +
                      ", which --strict takes for errors:" + text);
     }
+
+    /** Throw where a text has not been written as a whole. */
+    void
+    finish(std::ostream &out)
+    {
+      const bool is_first_rank = out.rdbuf() != nullptr;
+      if (is_first_rank && !out.flush())
+        throw RunFailure("standard output takes no more text: is a disk full?");
+    }
   } // namespace
 
 
@@ -119,6 +128,7 @@ namespace CaissonMPM
     if (command_line.print_parameters || !command_line.explain.empty())
       {
         print_parameters(origins, command_line.explain, out);
+        finish(out);
         return ExitStatus::success;
       }
     with_places(origins,
@@ -134,7 +144,8 @@ namespace CaissonMPM
       origins.add_warning(cost.failure);
     print_warnings(origins, out);
     out << printable(command_line.parameter_file) << " is valid\n"
-        << describe(cost) << std::flush;
+        << describe(cost);
+    finish(out);
     return ExitStatus::success;
   }
 } // namespace CaissonMPM

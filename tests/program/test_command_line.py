@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The options of the program, and the parameters that it prints."""
 import re
+import subprocess
 import unittest
 
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, scene, summary
+from program import BAD_INPUT, FAILURE, SUCCESS, Entries, ProgramTest, scene, summary
 
 
 class Options(ProgramTest):
@@ -30,6 +31,14 @@ class Options(ProgramTest):
         again = self.run_program(SUCCESS, path, "--print-parameters")
         self.assertEqual(path.read_text(), again)
         self.assertIn("Units: ", again)
+
+    def test_a_list_that_is_cut_off(self) -> None:
+        """It is a failure, as on a full disk."""
+        words = [str(self.program), str(scene("jack")), "--print-parameters"]
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, FAILURE)
+        self.assertIn("standard output takes no more text", done.stderr)
 
     def test_entries_with_a_word(self) -> None:
         """One layer stands for those that have the defaults."""
