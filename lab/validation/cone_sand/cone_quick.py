@@ -17,8 +17,7 @@ CLAY = cone_clay.Case()
 DENSITY, VERTICAL = 0.77, 100.0  # of the sand; kPa
 # of the factor in clay, beyond the formulas: two cells are 4 % above the limit
 MARGIN = 0.06
-# long steps
-LIGHT: dict[str, Any] = {
+LONG_STEPS: dict[str, Any] = {
     "Time/Courant number": 0.8,
     "Time/Mass scaling": 1,
     "Time/Inertia tolerance": 1.6,
@@ -28,11 +27,11 @@ LIGHT: dict[str, Any] = {
 def runs_of(_: Path) -> list[dict[str, Any]]:
     """Return both runs."""
     coarse: dict[str, Any] = {"Rigid body/Cells across the wall": CELLS}
-    clay = {**CLAY.entries(), **coarse, **LIGHT, "Verification/Checks": ""}
+    clay = {**CLAY.entries(), **coarse, **LONG_STEPS, "Verification/Checks": ""}
     sand = {
         **cone_sand.entries_of(DENSITY, VERTICAL),
         **coarse,
-        **LIGHT,
+        **LONG_STEPS,
         "Grid/Cell width": 0.09,
         "Grid/Cell height": 0.09,
         "Grid/Fine width": 0.03,
