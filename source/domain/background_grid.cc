@@ -281,12 +281,12 @@ namespace CaissonMPM
                              j = b.row + b.size * (k / 2);
           seen[node]           = true;
           node_sides[node]     = lines_.sides_of(i, j);
+          const auto start     = lines_.node_start(i, j);
+          const auto rate      = lines_.node_rate(i, j);
           for (unsigned int d = 0; d < dim; ++d)
             {
-              node_start.local_element(dim * node + d) =
-                lines_.node_start(i, j)[d];
-              node_rate.local_element(dim * node + d) =
-                lines_.node_rate(i, j)[d];
+              node_start.local_element(dim * node + d) = start[d];
+              node_rate.local_element(dim * node + d)  = rate[d];
             }
           vertices.emplace_back(node, &iterators[c]->vertex(k));
         }
