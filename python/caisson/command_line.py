@@ -16,7 +16,7 @@ import sys
 import traceback
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
-from typing import NoReturn, TextIO, cast
+from typing import Any, NoReturn, TextIO, cast
 
 from caisson import disk, needed, paths
 from caisson.disk import InputError
@@ -66,6 +66,17 @@ def help_of(groups: Groups) -> str:
 class Parser(argparse.ArgumentParser):
     """Says in a line what is wrong, with the nearest option to one that is not known,
     and not all options beside it."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Return the options, of which a value may begin with "-,", as in --columns
+        -,depth_m,qc_MPa: argparse takes it for an option."""
+        words = list[str]()
+        for word in sys.argv[1:] if args is None else args:
+            if re.match("-[,;]", word) and words and words[-1].startswith("--"):
+                words[-1] += f"={word}"
+            else:
+                words.append(word)
+        return super().parse_known_args(words, namespace)
 
     def error(self, message: str) -> NoReturn:
         """End the process."""

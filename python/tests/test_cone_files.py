@@ -303,11 +303,32 @@ class Ags(WithFiles):
     def test_wrong_units(self) -> None:
         """One that is not known, none at all, and megapascals below kilopascals."""
         self.refused(
-            AGS.replace("MN/m2", "tsf"), "row 9: the column 'SCPT_RES', .*'tsf'"
+            AGS.replace("MN/m2", "lbs"), "row 9: the column 'SCPT_RES', .*'lbs'"
         )
         self.refused(AGS.replace(UNITS + "\n", ""), "row 8: .* has no row UNIT")
         small = UNITS.replace("MN/m2", "Pa")
         self.refused(AGS.replace(UNITS, small), "row 11: .*both units in the row UNIT")
+
+    def test_group_as_a_table(self) -> None:
+        """As programs write it: with all rows, without HEADING, without units; of one
+        of several locations."""
+        group = [line.replace('"', "") for line in AGS.splitlines()[7:]]
+        bare = [line.split(",", 1)[1] for line in group]
+        for lines, units in (
+            (group, True),
+            (bare, True),
+            ([bare[0], *bare[3:]], False),
+        ):
+            test = self.read("\n".join(lines))
+            np.testing.assert_allclose(test.depth, [0.5, 1, 1.5])
+            np.testing.assert_allclose(test.resistance, [1e6, 2.5e6, 4e6])
+            assert test.friction is not None and test.pore_pressure is not None
+            np.testing.assert_allclose(test.friction, [5e3, 12.5e3, 20e3])
+            self.assertEqual("units of AGS 4" not in str(test.remarks), units)
+            self.assertFalse(cone_file.is_plain(self.path))
+        two = "\n".join([*group, OTHER.replace('"', "")])
+        self.refused(two, "2 tests: CPT01, CPT02; choose one by --location")
+        self.assertEqual(self.read(two, "CPT02").resistance[0], 9e6)
 
     def test_wrong_groups(self) -> None:
         self.refused(AGS.replace('"SCPT"', '"GEOL"'), "no group SCPT.* are PROJ, GEOL")
@@ -359,6 +380,18 @@ class Gef(WithFiles):
             np.testing.assert_allclose(test.depth[0], first)
             np.testing.assert_allclose(test.resistance, [1e6, 4e6])
 
+    def test_lines_of_a_spreadsheet(self) -> None:
+        """In quotation marks, and a few rows with another number of cells."""
+        test = self.read("\n".join(f'"{line}",,' for line in GEF.splitlines()))
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        some = [f'"{x}"' if "INFO" in x else x for x in GEF.splitlines()]
+        some += [f"{i / 5:g};4.00;0.02;-1;{i / 5:g};!" for i in range(8, 200)]
+        some[40] += "7;!"
+        some[60] = some[60].replace(";-1", "")
+        test = self.read("\n".join(some))
+        self.assertEqual(len(test.depth), 2 + 192 - 2)
+        self.assertIn("number of cells, left out: 2, the first is", str(test.remarks))
+
     def test_decimal_commas(self) -> None:
         """In the table and in #COLUMNVOID; 0,99900 is the void 0.999."""
         table = GEF.replace("0.006", "0.99900").replace("-9999;", "3.0;")
@@ -390,7 +423,7 @@ class Gef(WithFiles):
         for old, new, words in (
             ("#EOH=\n", "", "no line #EOH="),
             ("Conusweerstand, 2", "Conusweerstand, 99", "no column is the cone resist"),
-            ("2, MPa", "2, tsf", "row 5: the column 'Conusweerstand', .* 'tsf'"),
+            ("2, MPa", "2, lbs", "row 5: the column 'Conusweerstand', .* 'lbs'"),
             ("wrijving, 3", "wrijving, x", "row 6: #COLUMNINFO must have number"),
             (
                 "wrijving, 3",

@@ -90,8 +90,6 @@ class Files(WithFiles):
         for wrong, words in {
             "{},x,3,0": "'x' is no number",
             "{},-2,3,0": "cone resistance is -2 MPa",
-            "{},2,-50,0": "sleeve friction is -0.05 MPa",
-            "{},2,30,30000": "pore pressure is 30 MPa",
             "{},5000,30,0": "check the unit in the heads",
             "0.2,5,30,0": "not below that of the row before",
             "500,5,30,0": "no length in meters",
@@ -109,6 +107,35 @@ class Files(WithFiles):
                 self.assertNotIn("\n", said)
                 self.assertRegex(said, others)
 
+    def test_values_that_cannot_be_meant(self) -> None:
+        """A few are left out, alone and with their number; many are refused."""
+        for column, value, words in (
+            ("fs", -50, "sleeve friction is -0.05 MPa"),
+            ("fs", 1500, "sleeve friction of 1500 kPa is more than the cone resist"),
+            ("u2", 30000, "pore pressure is 30 MPa"),
+        ):
+            for number in (1, 4, 5):
+                rows = [[z / 20, 1, 5, 2] for z in range(40)]
+                for row in rows[-number:]:
+                    row[2 if column == "fs" else 3] = value
+                text = "\n".join(",".join(f"{x:g}" for x in row) for row in rows)
+                path = self.written(HEAD + text)
+                if number > 4:
+                    with self.assertRaisesRegex(InputError, f"row 37: .*{words}"):
+                        cone_file.read(path)
+                    continue
+                test = cone_file.read(path)
+                self.assertEqual(len(test.depth), 40)
+                assert test.friction is not None and test.pore_pressure is not None
+                np.testing.assert_allclose(test.friction, 5e3)
+                self.assertLess(test.pore_pressure.max(), 20e3)
+                self.assertIn(f"{value} kPa, which cannot be meant", str(test.remarks))
+                self.assertIn(f"left out: {number}, those of", str(test.remarks))
+        deep = "".join(f"{z / 20:g},9,50,-1200\n" for z in range(40))
+        self.assertIn(
+            "kept, 40", str(cone_file.read(self.written(HEAD + deep)).remarks)
+        )
+
     def test_many_wrong_rows_are_counted(self) -> None:
         text = HEAD + "0,1,1,0\n" + "1,x,1,0\n" * 13
         with self.assertRaisesRegex(
@@ -118,10 +145,10 @@ class Files(WithFiles):
 
     def test_wrong_heads(self) -> None:
         for head, words in {
-            "depth_m,qc_psi,fs_kPa": "'qc_psi', the cone resistance, has no unit that",
+            "depth_m,qc_lbs,fs_kPa": "'qc_lbs', the cone resistance, has no unit that",
             "depth_m,qc_MPa,fs": "'fs', the sleeve friction, has no unit",
             "depth_m,qc_MPa,qc_kPa": "two columns are the cone resistance",
-            "depth_ft,qc_MPa,fs_kPa": "'depth_ft', the depth, has no unit .*'ft'",
+            "depth_yd,qc_MPa,fs_kPa": "'depth_yd', the depth, has no unit .*'yd'",
         }.items():
             with self.assertRaisesRegex(InputError, words):
                 cone_file.read(self.written(head + "\n0,1,1\n1,2,1\n"))

@@ -98,22 +98,37 @@ def table_of(path: Path, wanted: list[str], how: How) -> Table:
     """Return the table of a file. Raises InputError."""
     content = content_of(path)
     if content.startswith(ARCHIVE):
-        refuse_options(path, how, "sheet columns", "a workbook")
         rows = cone_grid.grid_of_workbook(path, how.sheet, bool(how.columns))
-        return cone_grid.table(path, rows, None, wanted, how.columns)
+        return table_of_grid(path, rows, None, wanted, how, "a workbook")
     lines = lines_of(path, content)
     if cone_formats.is_ags(lines):
         refuse_options(path, how, "location", "AGS 4")
-        return cone_formats.ags(path, lines, wanted, how.location)
+        groups = cone_formats.ags_groups(path, lines)
+        return cone_formats.ags(path, groups, wanted, how.location)
     if cone_formats.is_xml(lines):
         refuse_options(path, how, "location", "XML")
         return cone_formats.bro(path, lines, wanted, how.location)
     if cone_formats.is_gef(lines):
         refuse_options(path, how, "", "GEF")
         return cone_formats.gef(path, lines, wanted)
-    refuse_options(path, how, "columns", "a table of text")
     grid, divider = cone_grid.grid_of_text(lines)
-    return cone_grid.table(path, grid, divider, wanted, how.columns)
+    return table_of_grid(path, grid, divider, wanted, how, "a table of text")
+
+
+def table_of_grid(
+    path: Path, rows: Rows, divider: str | None, wanted: list[str], how: How, form: str
+) -> Table:
+    """Return the table of rows of cells, which may be the group SCPT of AGS 4. form:
+    of the file, in words. Raises InputError."""
+    sheet = "sheet " if form == "a workbook" else ""
+    if not how.columns and cone_formats.is_ags_group(rows):
+        refuse_options(path, how, f"{sheet}location", f"{form} with a group of AGS 4")
+        group, said = cone_formats.group_of_table(rows)
+        found = cone_formats.ags(path, {"SCPT": group}, wanted, how.location)
+        found.remarks += said
+        return found
+    refuse_options(path, how, f"{sheet}columns", form)
+    return cone_grid.table(path, rows, divider, wanted, how.columns)
 
 
 def is_plain(path: Path, how: How = How()) -> bool:
@@ -126,7 +141,8 @@ def is_plain(path: Path, how: How = How()) -> bool:
     forms = cone_formats.is_ags, cone_formats.is_xml, cone_formats.is_gef
     if any(form(lines) for form in forms):
         return False
-    return cone_grid.heads_in(cone_grid.grid_of_text(lines)[0]) == 0
+    rows = cone_grid.grid_of_text(lines)[0]
+    return not cone_formats.is_ags_group(rows) and cone_grid.heads_in(rows) == 0
 
 
 # --------------------------------------------------------------- the values
@@ -237,6 +253,7 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     found.make_friction()
     found.join_pushes()
     found.leave_out_hole()
+    found.leave_out_values()
     found.leave_out_no_load()
     found.check_order()
     found.check_ranges()

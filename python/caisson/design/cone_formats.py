@@ -23,15 +23,16 @@ from xml.etree import ElementTree
 
 from caisson.disk import InputError
 from caisson.design.cone_table import Facts, Head, Rows, Table, refuse, table_of
-from caisson.design.cone_table import value_of
+from caisson.design.cone_table import is_number, value_of
 from caisson.design.cone_words import LENGTH, NEEDED, QUANTITIES, unit_in
 
 BY_GEF = {quantity.gef: key for key, quantity in QUANTITIES.items()}
 BY_AGS = {q.ags: key for key, q in QUANTITIES.items() if q.ags}
 BY_BRO = {quantity.bro: key for key, quantity in QUANTITIES.items()}
 GEF_AREA_RATIO, GEF_PREDRILLED = 3, 13  # of #MEASUREMENTVAR
-LOCATION, PUSH = "LOCA_ID", "SCPG_TESN"
+LOCATION, PUSH, DEPTH = "LOCA_ID", "SCPG_TESN", QUANTITIES["depth"].ags
 MOST = 30  # names in a message
+FEW = 0.02  # of the rows of GEF may have another number of cells
 Keys = list[tuple[int, str, list[str]]]
 
 
@@ -60,7 +61,14 @@ def chosen_of(path: Path, names: Sequence[str], location: str, example: str) -> 
 
 def is_gef(lines: Sequence[str]) -> bool:
     """Return whether the lines of a file are in GEF."""
-    return any(re.match(r"#\s*(GEFID|COLUMNINFO)\b", line, re.I) for line in lines)
+    return any(re.match(r'"?#\s*(GEFID|COLUMNINFO)\b', line, re.I) for line in lines)
+
+
+def unquoted(line: str) -> str:
+    """Return a line without the quotation marks of a spreadsheet program."""
+    if match := re.fullmatch(r'"(.*)"[\s,;]*', line):
+        return match[1].replace('""', '"')
+    return line
 
 
 def gef_keys(path: Path, lines: Sequence[str]) -> tuple[Keys, int]:
@@ -173,6 +181,7 @@ def is_void(text: str, void: float) -> bool:
 
 def gef(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
     """Return the table of a file in GEF. Raises InputError."""
+    lines = list(map(unquoted, lines))
     keys, last = gef_keys(path, lines)
     for row, key, value in keys:
         if key in ("REPORTCODE", "PROCEDURECODE") and "BORE" in value[0].upper():
@@ -185,14 +194,15 @@ def gef(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
         raise InputError(f"{path}: no line #COLUMNINFO says what a column is")
     rows = gef_rows(path, lines, keys, last)
     number = max(head.place for head in heads) + 1
-    refuse(
-        path,
-        [
-            (row, f"{len(cells)} cells, and {number} columns in #COLUMNINFO")
-            for row, cells in rows
-            if len(cells) < number or any(cells[number:])
-        ],
-    )
+    wrong = [
+        (row, f"{len(cells)} cells, and {number} columns in #COLUMNINFO")
+        for row, cells in rows
+        if len(cells) < number or any(cells[number:])
+    ]
+    if len(wrong) > FEW * len(rows):
+        refuse(path, wrong)
+    left_out = {row for row, _ in wrong}
+    rows = [(row, cells) for row, cells in rows if row not in left_out]
     numbers = {key: QUANTITIES[key].gef for key in QUANTITIES}
     advice = (
         f"#COLUMNINFO has quantity {numbers['depth']} or {numbers['rods']} for the"
@@ -200,6 +210,12 @@ def gef(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
     )
     found = table_of(path, heads, rows, wanted, "#COLUMNINFO", advice)
     found.facts = gef_facts(keys)
+    if wrong:
+        row, why = wrong[0]
+        found.remarks.append(
+            f"rows with another number of cells, left out: {len(wrong)}, the first is"
+            f" row {row}: {why}"
+        )
     return found
 
 
@@ -210,6 +226,29 @@ def is_ags(lines: Sequence[str]) -> bool:
     """Return whether the lines of a file are in an AGS format."""
     first = next((line for line in lines if line.strip()), "")
     return first.replace('"', "").lstrip().upper().startswith(("GROUP,", "**"))
+
+
+def is_ags_group(rows: Rows) -> bool:
+    """Return whether a table is the group SCPT: a row has headings of AGS 4."""
+    return any(DEPTH in cells for _, cells in rows[:MOST])
+
+
+def group_of_table(rows: Rows) -> tuple[Rows, list[str]]:
+    """Return the group SCPT of a table with its headings, as programs write it, with
+    the rows HEADING, UNIT and DATA, and in words what is assumed."""
+    place = next(i for i, (_, cells) in enumerate(rows) if DEPTH in cells)
+    row, heads = rows[place]
+    if heads[0] == "HEADING":
+        return rows[place:], []
+    below = [(row, ["DATA", *cells]) for row, cells in rows[place + 1 :]]
+    depth = 1 + heads.index(DEPTH)
+    units = [QUANTITIES[BY_AGS[x]].usual if x in BY_AGS else "" for x in heads]
+    said = ["ASSUMED: the units of AGS 4: m, q_c in MPa, f_s and u_2 in kPa"]
+    while below and not is_number("".join(below[0][1][depth : depth + 1])):
+        (row, (_, *cells)), *below = below
+        if unit_in("".join(cells[depth - 1 : depth])) in LENGTH:
+            units, said = cells, []
+    return [(row, ["HEADING", *heads]), (row, ["UNIT", *units]), *below], said
 
 
 def ags_groups(path: Path, lines: Sequence[str]) -> dict[str, Rows]:
@@ -280,10 +319,12 @@ def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
     ]
 
 
-def ags(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> Table:
+def ags(
+    path: Path, groups: Mapping[str, Rows], wanted: Sequence[str], where: str
+) -> Table:
     """Return the table of the test at a location, "" for that of the file if it has
-    only one; the pushes of a location are one test. Raises InputError."""
-    groups = ags_groups(path, lines)
+    only one; the pushes of a location are one test. groups: their rows by name. Raises
+    InputError."""
     row_of_heads, texts = ags_row(path, groups["SCPT"], "HEADING")
     row_of_units, units = ags_row(path, groups["SCPT"], "UNIT")
     units = units + [""] * len(texts)
@@ -293,7 +334,7 @@ def ags(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> 
         [
             (row, f"{len(cells)} cells, and {len(texts)} in the row HEADING")
             for row, cells in rows
-            if len(cells) != len(texts)
+            if len(cells) < len(texts) or any(cells[len(texts) :])
         ],
     )
     heads = [

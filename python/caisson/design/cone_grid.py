@@ -8,7 +8,8 @@ semicolons, tabs, commas or blanks, whichever gives the most rows of numbers. Ro
 are empty or begin with "#" are left out, but count.
 """
 import csv
-from collections.abc import Iterable, Sequence
+import zipfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,9 @@ from caisson.design.cone_words import (
 
 DIVIDERS = (";", "\t", ",", None)  # None: blanks
 SAMPLE = 400  # lines that tell what divides cells
+# of a sheet; a day of readings each second has 86,400 rows
+MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 200_000, 256, 1_000_000
+MOST_BYTES = 100e6  # of a workbook, unpacked
 
 
 def divided(line: str, divider: str | None) -> list[str]:
@@ -78,27 +82,62 @@ def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
     return [(row, divided(line, divider)) for row, line in kept], divider
 
 
-def rows_of(sheet: Iterable[Sequence[object]]) -> Rows:
-    """Return the rows of a sheet that are not empty."""
-    rows = [
-        (row, ["" if x is None else printable(" ".join(str(x).split())) for x in cells])
-        for row, cells in enumerate(sheet, 1)
-    ]
-    return [(row, cells) for row, cells in rows if any(cells)]
+def rows_of(sheet: Any, path: Path) -> Rows:
+    """Return the rows of a sheet that are not empty, without the empty cells at their
+    ends. Cells far from all others, which are blanks by mistake, are not read. Raises
+    InputError where there are too many."""
+    found, number = Rows(), 0
+    most = {"max_row": MOST_ROWS + 1, "max_col": MOST_COLUMNS}
+    for row, values in enumerate(sheet.iter_rows(values_only=True, **most), 1):
+        if values.count(None) == len(values):
+            continue
+        cells = [
+            "" if x is None else printable(" ".join(str(x).split())) for x in values
+        ]
+        while cells and not cells[-1]:
+            cells.pop()
+        number += len(cells)
+        if cells and row > MOST_ROWS or number > MOST_CELLS:
+            raise InputError(
+                f"{path}: the sheet {printable(sheet.title)} has more than {MOST_ROWS}"
+                f" rows or {MOST_CELLS} cells; save what counts as CSV"
+            )
+        if cells:
+            found.append((row, cells))
+    return found
 
 
 def first_without_value(values: Any, formulas: Any) -> int:
     """Return the first row of a sheet with a formula where no formula has a stored
     value, else 0. formulas: the same sheet, read with them."""
     found = 0
-    sheets = (sheet.iter_rows(values_only=True) for sheet in (values, formulas))
+    most = {"max_row": MOST_ROWS, "max_col": MOST_COLUMNS}
+    sheets = (x.iter_rows(values_only=True, **most) for x in (values, formulas))
     for row, (stored, written) in enumerate(zip(*sheets), 1):
+        if written.count(None) == len(written):
+            continue
         for value, text in zip(stored, written):
             if isinstance(text, str) and text.startswith("="):
                 if value is not None:
                     return 0
                 found = found or row
     return found
+
+
+def check_size(path: Path) -> None:
+    """Refuse a workbook that unpacks to more than any log has. Raises InputError."""
+    with zipfile.ZipFile(path) as archive:
+        size = sum(part.file_size for part in archive.infolist() if is_cells(part))
+    if size > MOST_BYTES:
+        raise InputError(
+            f"{path}: the sheets of the workbook unpack to {size / 1e6:.0f} MB, and at"
+            f" most {MOST_BYTES / 1e6:.0f} MB are read; save what counts as CSV"
+        )
+
+
+def is_cells(part: zipfile.ZipInfo) -> bool:
+    """Return whether a part of a workbook is read: it is no picture."""
+    return part.filename.endswith((".xml", ".rels"))
 
 
 def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
@@ -112,22 +151,39 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
             " save the sheet as CSV"
         ) from error
     try:
+        check_size(path)
         with path.open("rb") as file:  # its name may end as it likes
             book = openpyxl.load_workbook(file, read_only=True, data_only=True)
             names = [name for name in book.sheetnames if sheet in ("", name)]
-            sheets = {
-                name: rows_of(book[name].iter_rows(values_only=True)) for name in names
-            }
-            every = list(map(printable, book.sheetnames))
+            sheets = {name: rows_of(book[name], path) for name in names}
+            name = chosen_of(path, sheets, sheet, book.sheetnames, has_names)
             formulas = openpyxl.load_workbook(file, read_only=True)
-            empty = {
-                name: first_without_value(book[name], formulas[name]) for name in names
-            }
+            empty = first_without_value(book[name], formulas[name])
+    except InputError:
+        raise
     except Exception as error:  # openpyxl hands on whatever its parts raise
         raise InputError(
             f"{path} is no workbook that can be read (.xlsx), but another archive or a"
             " damaged one: save it as .xlsx, or as CSV in UTF-8"
         ) from error
+    if empty:
+        raise InputError(
+            f"{path}, row {empty} of sheet {printable(name)}: a formula without a"
+            " stored value; open the workbook in a spreadsheet program and save it"
+        )
+    return sheets[name]
+
+
+def chosen_of(
+    path: Path,
+    sheets: Mapping[str, Rows],
+    sheet: str,
+    names: Sequence[str],
+    has_names: bool,
+) -> str:
+    """Return the name of the sheet that is read. sheet: the one wanted, "" for any;
+    names: of all sheets. Raises InputError where there is none, or a choice."""
+    every = list(map(printable, names))
     if sheet and not sheets:
         raise InputError(
             f"{path} has no sheet {sheet!r}; the sheets are {', '.join(every)}"
@@ -136,18 +192,12 @@ def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
     known = {n: rows for n, rows in there.items() if heads_in(rows) is not None}
     some = known if known and not has_names else there
     if len(some) != 1:
-        names = list(map(printable, some)) or every
+        words = ", ".join(list(map(printable, some)) or every)
         raise InputError(
-            f"{path}: {len(some)} sheets may be the test, {', '.join(names)}; choose"
-            " one by --sheet"
+            f"{path}: {len(some)} sheets may be the test, {words}; choose one by"
+            " --sheet"
         )
-    name, rows = next(iter(some.items()))
-    if empty[name]:
-        raise InputError(
-            f"{path}, row {empty[name]} of sheet {printable(name)}: a formula without a"
-            " stored value; open the workbook in a spreadsheet program and save it"
-        )
-    return rows
+    return next(iter(some))
 
 
 def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:
@@ -224,7 +274,7 @@ def without_heads(path: Path, rows: Rows) -> InputError:
     row, cells = rows[0]
     return InputError(
         f"{path}: no row names a column of depth and one of cone resistance, as"
-        f" {EXAMPLE} or in English, German, Dutch or French; row {row} is"
+        f" {EXAMPLE} or in one of twelve languages; row {row} is"
         f" {', '.join(cells)[:60]!r}. Name the columns: --columns {EXAMPLE}, with - for"
         " one that is not to be read"
     )

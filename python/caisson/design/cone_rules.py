@@ -23,7 +23,7 @@ RANGES = {
     "qc": (-0.2e6, 200e6),
     "qt": (-0.2e6, 200e6),
     "fs": (-25e3, 5e6),
-    "u2": (-0.5e6, 20e6),
+    "u2": (-2e6, 20e6),  # dense sand in deep water
 }
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
 WEAK = 200e3  # Pa; less is doubtful
@@ -212,6 +212,24 @@ class Readings:
             )
         above = self.values["depth"] < hole - 1e-6
         self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
+
+    def leave_out_values(self) -> None:
+        """Leave out the sleeve frictions and pore pressures that cannot be meant where
+        they are few, as at the end where the rods are pulled; not their rows."""
+        for name in (x for x in ("fs", "u2") if x in self.values):
+            values, (low, high) = self.values[name], RANGES[name]
+            wrong = (values < low) | (values > high)
+            if name == "fs":  # in soil, which the cone resistance shows
+                tip = self.values[self.tip]
+                wrong |= (values > tip) & (tip > WEAK)
+            if 0 < wrong.sum() <= FEW * len(wrong):
+                some = values[wrong] / 1e3
+                self.remarks.append(
+                    f"values of the {QUANTITIES[name].name} from {some.min():g} to"
+                    f" {some.max():g} kPa, which cannot be meant, left out:"
+                    f" {rows_text(self.row[wrong])}"
+                )
+                self.values[name] = np.where(wrong, np.nan, values)
 
     def leave_out_no_load(self) -> None:
         """Leave out the rows in which the cone met no soil: a resistance of less than 0

@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from caisson.disk import InputError
-from caisson.design.cone_words import INSTEAD, LENGTH, NEEDED, QUANTITIES, unit_in
+from caisson.design.cone_words import CUSTOMARY, INSTEAD, LENGTH, NEEDED, QUANTITIES
+from caisson.design.cone_words import unit_in
 
 EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))
 # what programs write where nothing was measured; no cone measures it in any unit
-STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2 and bar"
+STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2, bar, kgf/cm2, tsf, ksf and psi"
 VOIDS = frozenset((-999.0, -999.25, -9999.0, -99999.0, -999999.0, -32768.0))
 COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
 Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its cells
@@ -114,7 +115,7 @@ def unit_of(path: Path, head: Head) -> float:
     quantity = QUANTITIES[head.quantity]
     word = unit_in(head.unit)
     if word not in quantity.units:
-        known = "m, cm and mm" if quantity.units is LENGTH else STRESSES
+        known = "m, cm, mm and ft" if quantity.units is LENGTH else STRESSES
         raise InputError(
             f"{path}, row {head.row}: the column {head.text!r}, the {quantity.name},"
             f" has no unit that is known, but {head.unit or 'none'!r}; known are"
@@ -138,7 +139,8 @@ def columns_of(
             some = other
         some = filled or some or other
         known = [h for h in some if unit_in(h.unit) in QUANTITIES[h.quantity].units]
-        some = known or some
+        metric = [head for head in known if unit_in(head.unit) not in CUSTOMARY]
+        some = metric or known or some
         if name == "rf":  # only where it is needed, and can be read
             some = [] if "fs" in found else known[:1]
         if len(some) > 1:

@@ -13,13 +13,29 @@ LENGTH = {
     **dict.fromkeys(("mbgl", "mbsf", "mbml"), 1.0),
     "cm": 1e-2,
     "mm": 1e-3,
+    **dict.fromkeys(("ft", "feet", "foot"), 0.3048),
 }
+POUND, KILOPOND = 4.4482216152605, 9.80665  # N
+SQUARE_FOOT = 0.3048**2  # m2
 STRESS = {
     **dict.fromkeys(("pa", "n/m2"), 1.0),
     **dict.fromkeys(("kpa", "kn/m2"), 1e3),
     **dict.fromkeys(("mpa", "mn/m2", "n/mm2"), 1e6),
-    "bar": 1e5,
+    **dict.fromkeys(("bar", "dan/cm2"), 1e5),
+    **dict.fromkeys(("mbar", "hpa"), 1e2),
+    **dict.fromkeys(("kg/cm2", "kgf/cm2", "kp/cm2", "kg/cmq"), 1e4 * KILOPOND),
+    **dict.fromkeys(("t/m2", "tf/m2"), 1e3 * KILOPOND),  # metric tons
+    **dict.fromkeys(
+        ("tsf", "tonf/ft2", "tons/ft2", "ton/ft2"), 2e3 * POUND / SQUARE_FOOT
+    ),
+    **dict.fromkeys(("ksf", "kip/ft2", "kips/ft2"), 1e3 * POUND / SQUARE_FOOT),
+    **dict.fromkeys(("psf", "lb/ft2", "lbf/ft2"), POUND / SQUARE_FOOT),
+    **dict.fromkeys(("psi", "lb/in2", "lbf/in2"), 144 * POUND / SQUARE_FOOT),
 }
+# where a file has a quantity twice, in metric units, too, these are left
+CUSTOMARY = frozenset(
+    unit for unit in (*LENGTH, *STRESS) if re.search("f(ee|oo)?t|in2|[kpt]s[if]", unit)
+)
 RATIO = {"%": 1e-2}
 EVERY_UNIT = LENGTH | STRESS | RATIO
 
@@ -27,7 +43,7 @@ EVERY_UNIT = LENGTH | STRESS | RATIO
 class Quantity(NamedTuple):
     """What a column can be: its name, its units, its heading in AGS 4, its number in
     GEF, its place in a record of BRO-XML from 0, the unit without one, and its names in
-    English, German, Dutch and French, without blanks and accents."""
+    twelve languages, without blanks and accents."""
 
     name: str
     units: Mapping[str, float]
@@ -48,16 +64,24 @@ QUANTITIES = {
 FACTS = {
     "area ratio": r"(?<!sleeve )(?<!friction )\ba(rea)?[ -]?ratio|oppervlaktequotient",
     "predrilled": r"pre[ -]?(drill|dug|bor|excavat)|voorge(boord|graven)|voorbor"
-    r"|vor(ge)?bohr|avant[ -]?trou|preforage",
+    r"|vor(ge)?bohr|avant[ -]?trou|preforage|preforo|forbor",
     "water": r"\bgw[lt]\b|water ?(level|table)|ground ?water|grund ?wasser|grond ?water"
     r"|waterstand|\bnappe\b",
 }
 BY_WORD = {word: key for key, q in QUANTITIES.items() for word in q.words.split()}
+BY_WORD |= {q.ags.replace("_", "").lower(): k for k, q in QUANTITIES.items() if q.ags}
+LONGEST_SYMBOL = 2  # letters: qc, u2, Rp
 INSTEAD = {"depth": "rods", "qc": "qt"}  # where a file has no column of the first
 NEEDED = ("depth", "qc")
 # a head with one of these counts from a datum, and not from the ground
-DATUMS = frozenset("nap nhn nn taw ngf lat msl elevation kote hoogte hohe".split())
-FILLERS = frozenset("in en the of measured gemessen gemeten mesuree".split())
+DATUMS = frozenset(
+    "nap nhn nn taw ngf lat msl elevation kote hoogte hohe quota slm cota rzedna".split()
+)
+FILLERS = frozenset(
+    "in en the of measured gemessen gemeten mesuree misurata medida malt".split()
+)
+# letters that have no accent to be taken off
+LETTERS = str.maketrans({"ø": "o", "æ": "ae", "ł": "l", "œ": "oe", "’": "'"})
 BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]?")
 UNIT_AT_END = re.compile(
     rf"(.*[a-z0-9])[\s_,;:/]+({'|'.join(sorted(EVERY_UNIT, key=len, reverse=True))})\W*"
@@ -66,7 +90,8 @@ UNIT_AT_END = re.compile(
 
 def plain(text: str) -> str:
     """Return a text in small letters, without accents and powers: mn/m2 of MN / m²."""
-    letters = unicodedata.normalize("NFKD", text.casefold().replace("_", " "))
+    text = text.casefold().replace("_", " ").translate(LETTERS)
+    letters = unicodedata.normalize("NFKD", text)
     letters = "".join(c for c in letters if not unicodedata.combining(c) and c != "^")
     return re.sub(r"\s*/\s*", "/", letters).strip()
 
@@ -84,8 +109,10 @@ def quantity_of(name: str) -> str:
     words = [w for w in re.split(r"[^a-z0-9]+", name) if w and w not in FILLERS]
     if found := BY_WORD.get("".join(words)):
         return found
-    symbols = {w for w in words if w in QUANTITIES}
-    found = BY_WORD.get("".join(w for w in words if w not in QUANTITIES), "")
+    is_symbol = [w in BY_WORD and len(w) <= LONGEST_SYMBOL for w in words]
+    symbols = {BY_WORD[w] for w, is_it in zip(words, is_symbol) if is_it}
+    rest = "".join(w for w, is_it in zip(words, is_symbol) if not is_it)
+    found = BY_WORD.get(rest, "")
     if len(symbols) == 1 and found:
         symbol = symbols.pop()
         return symbol if symbol in (found, INSTEAD.get(found)) else ""
