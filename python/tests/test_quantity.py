@@ -50,6 +50,9 @@ class Numbers(unittest.TestCase):
             ("33°", "degrees", 33.0),
             ("1e-3 cm/s", "m/s", 1e-5),
             ("-.5", "", -0.5),
+            ("10 ft", "m", 3.048),
+            ("2 tsf", "Pa", 191521.04),
+            ("100 mbar", "Pa", 1e4),
         ):
             self.assertEqual(value_of(text, unit), value, text)
 
@@ -58,7 +61,7 @@ class Numbers(unittest.TestCase):
             ("0,75", "", "decimal comma; write 0.75"),
             ("9,5 m", "m", "write 9.5 m"),
             ("45 MPa", "N", "'MPa' is no unit of it; known: N, kN, MN"),
-            ("45 psi", "Pa", "'psi' is no unit"),
+            ("45 pis", "Pa", "'pis' is no unit"),
             ("4 5", "Pa", "is no number"),
             ("x", "Pa", "is no number"),
         ):

@@ -75,7 +75,7 @@ INSTEAD = {"depth": "rods", "qc": "qt"}  # where a file has no column of the fir
 NEEDED = ("depth", "qc")
 # a head with one of these counts from a datum, and not from the ground
 DATUMS = frozenset(
-    "nap nhn nn taw ngf lat msl elevation kote hoogte hohe quota slm cota rzedna".split()
+    "nap nhn nn taw ngf lat msl elevation kote hoogte hohe quota cota rzedna".split()
 )
 FILLERS = frozenset(
     "in en the of measured gemessen gemeten mesuree misurata medida malt".split()

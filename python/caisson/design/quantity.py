@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 
 # the unit of a number without one, and those that may be given
 UNITS: dict[str, Mapping[str, float]] = {
-    "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
+    "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
-    | {"N/m2": 1.0, "kN/m2": 1e3, "MN/m2": 1e6, "N/mm2": 1e6},
+    | {"N/m2": 1.0, "kN/m2": 1e3, "MN/m2": 1e6, "N/mm2": 1e6, "bar": 1e5, "mbar": 1e2}
+    | {"psi": 6894.757, "ksf": 47880.26, "tsf": 95760.52, "kgf/cm2": 98066.5},
     "N": {"N": 1.0, "kN": 1e3, "MN": 1e6},
     "kN/m3": {"kN/m3": 1.0, "N/m3": 1e-3, "MN/m3": 1e3},
     "kg/m3": {"kg/m3": 1.0, "t/m3": 1e3, "g/cm3": 1e3},
