@@ -48,12 +48,12 @@ def write_csv(
     columns: Sequence[str],
     rows: Sequence[Sequence[Any]],
     remarks: Sequence[str] = (),
-) -> None:
-    """Write a table with all digits, below remarks."""
+) -> Path:
+    """Write a table with all digits, below remarks; return its path."""
     text = io.StringIO(newline="")
     text.writelines(f"{line}\n" for line in disk.remarks("#", remarks))
     csv.writer(text).writerows([list(columns), *rows])
-    disk.write(path, text.getvalue())
+    return disk.write(path, text.getvalue())
 
 
 def digits(value: float | None, number: int = 6) -> str:
@@ -67,5 +67,4 @@ def write_columns(
     """Write columns of numbers with so many digits; return the path."""
     rows = zip(*columns.values())
     texts = [[digits(float(value), number) for value in row] for row in rows]
-    write_csv(path, list(columns), texts)
-    return path
+    return write_csv(path, list(columns), texts)

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from synthetic import write_run
 
 from caisson import log as log_command
 from caisson.disk import InputError
-from caisson.log import expected, forecast, measured, sheet, words
+from caisson.log import expected, forecast, measured, picture, sheet, words
 from caisson.results import Results
 
 WEIGHT, DIAMETER, WALL, END = 1.5e6, 8.0, 0.03, 9.0
@@ -170,6 +171,63 @@ class Vessel(unittest.TestCase):
         self.assertIn("20 % to either side (ASSUMED)", found.source)
         self.assertGreater(ahead.high[-1], ahead.best[-1])
 
+    def test_spikes(self) -> None:
+        """Two readings of 9.99 bar in a log are named, and nothing else is left out:
+        the line still begins with the first reading."""
+        self.write_runs()
+        depth = np.arange(3.0, 6.0, 0.02)
+        suction = (np.interp(depth, DEPTH, BEST) - WEIGHT) / AREA / 1e3
+        suction = np.maximum(suction, 0)
+        begin = float(depth[np.argmax(suction > 8.0)])
+        suction[[100, 130]] = 999.0
+        rows = [
+            f"{20 * i},{d:.2f},{s:.3f}" for i, (d, s) in enumerate(zip(depth, suction))
+        ]
+        text = "\n".join(["time_s,depth_m,suction_kPa", *rows])
+        self.file.write_text(text, encoding="utf-8")
+        _, said = log_command.write(self.own, self.file)
+        found, bins, _ = self.answer()
+        self.assertLess(bins.depth[0], begin)
+        self.assertAlmostEqual(forecast.fit_of(found, bins).factor[0], 1, delta=0.01)
+        text = "2 spikes of suction are left out: 999 kPa at 5 m, 999 kPa at 5.6 m."
+        self.assertIn(text, said)
+        self.assertIn(text, (self.own / "vessel.html").read_text(encoding="utf-8"))
+
+    def test_extrapolated(self) -> None:
+        """What lies below the end of the runs of low and high is named as such in the
+        forecast, the page and the tables, and drawn dashed."""
+        self.write_runs()
+        for name, rows in (("low", 250), ("high", 300)):
+            change = HALF if name == "high" else -HALF
+            history = history_of(BEST * np.exp(change))
+            cut = {key: values[:rows] for key, values in history.items()}
+            summary = {"scene": SCENE, "entries": {}}
+            write_run(self.path / f"own_{name}", cut, summary)
+        self.write_log(BEST, 5.0)
+        _, said = log_command.write(self.own, self.file)
+        text = "This rests on extrapolation: low from 5.8 m on and high from 6.86 m on."
+        self.assertIn(text, said[0])
+        page = (self.own / "vessel.html").read_text(encoding="utf-8")
+        self.assertEqual(page.count("low from 5.8 m on and high from 6.86 m on"), 2)
+        sheet.write(self.own)
+        for name, depth, lines in (
+            ("vessel.csv", "9", "low high"),
+            ("vessel.csv", "6.5", "low"),
+            ("vessel.csv", "5.5", ""),
+            ("log_sheet.csv", "6.5", "low"),
+        ):
+            with (self.own / name).open(encoding="utf-8") as file:
+                found = {row["depth_m"]: row for row in csv.DictReader(file)}
+            self.assertEqual(found[depth]["extrapolated"], lines)
+        axes = Figure().subplots()
+        picture.draw_expected(axes, expected.expected_of(Results(self.own)))
+        dashed = [
+            np.nanmin(np.where(np.isnan(x), np.nan, y))
+            for x, y in (line.get_data() for line in axes.lines)
+            if len(x) and np.isnan(x[0]) and np.isfinite(x[-1])
+        ]
+        np.testing.assert_allclose(sorted(dashed), [5.8, 6.86], atol=0.1)
+
     def test_command(self) -> None:
         """Page, picture and table; and the blank sheet."""
         self.write_runs()
@@ -243,6 +301,67 @@ class Reading(unittest.TestCase):
         np.testing.assert_allclose(log.flow, [7.2, 7.2])
         self.assertTrue(np.isnan(log.resistance).all())
 
+    def test_more_units(self) -> None:
+        for head, cell, found in (
+            ("dP (mbar)", "150", 15.0),
+            ("Underpressure, hPa", "150", 15.0),
+            ("suction_psi", "2", 13.789514),
+            ("\u0394p [bar]", "0.15", 15.0),
+            ("differential pressure (MPa)", "0.015", 15.0),
+            ("vacuum_mH2O", "2", 19.6133),
+        ):
+            log = self.read(f"depth_ft,{head.replace(',', ' ')}", *[f"10,{cell}"] * 2)
+            np.testing.assert_allclose(log.depth, 3.048)
+            np.testing.assert_allclose(log.suction, found)
+
+    def test_tilt(self) -> None:
+        """The resultant of two axes, or the one that there is."""
+        both = np.degrees(np.arctan(np.hypot(*np.tan(np.radians([0.3, 0.4])))))
+        for heads, cells, found in (
+            ("Pitch (deg),Roll (deg)", "0.3,-0.4", both),
+            ("tilt_x_deg,tilt_y_deg", "0.3,0.4", both),
+            ("Trim [\u00b0],List [\u00b0]", "-0.3,0.4", both),
+            ("inclination x (rad),inclination y (rad)", "0.00523599,0.00698132", both),
+            ("Heel", "0.4", 0.4),
+            ("tilt_deg,pitch_deg,roll_deg", "0.7,0.3,0.4", 0.7),
+        ):
+            log = self.read(f"depth_m,suction_kPa,{heads}", f"1,2,{cells}")
+            np.testing.assert_allclose(log.tilt, found, rtol=1e-5, err_msg=heads)
+
+    def test_spikes(self) -> None:
+        """A few readings that exceed all around them, and nothing else."""
+        rng = np.random.default_rng(1)
+        ramp = np.linspace(5, 100, 60) * (1 + 0.05 * rng.normal(size=60))
+        steps = np.repeat([0.0, 5.0, 20.0, 60.0], 15)
+        pulses = np.tile(np.repeat([0.0, 50.0], [6, 2]), 8)
+        for name, values, at, to in (
+            ("one", ramp, [30], 999),
+            ("two", ramp, [10, 40], 999),
+            ("three in a row", ramp, [30, 31, 32], 500),
+            ("near each other", ramp, [30, 34], 999),
+            ("below zero", ramp, [30], -999),
+            ("the first", ramp, [0, 1], 999),
+            ("the last", ramp, [57, 58, 59], 999),
+            ("in a low part", ramp, [2], 60),
+            ("a dead sensor", np.full(20, 7.0), [9], 999),
+            ("while nothing is pumped", steps, [5], 999),
+            ("beside a step", steps, [29], 999),
+            ("of a short log", ramp[:6], [3], 999),
+            ("no spike: a ramp", ramp, [], 0),
+            ("no spike: steps", steps, [], 0),
+            ("no spike: a step at the end", steps[:47], [], 0),
+            ("no spike: a constant sensor", np.full(20, 7.0), [], 0),
+            ("no spike: zeros", np.zeros(20), [], 0),
+            ("no spike: growth", np.geomspace(1, 1000, 20), [], 0),
+            ("no spike: pulses of the pump", pulses, [], 0),
+            ("no spike: a pulse of six", ramp, [], 0),
+        ):
+            changed = values.copy()
+            changed[at] = to
+            changed[30:36] *= 4 if "six" in name else 1
+            found = np.flatnonzero(measured.spikes_in(changed))
+            self.assertEqual(found.tolist(), at, name)
+
     def test_order_and_remarks(self) -> None:
         log = self.read(
             "time_min,depth_m,suction_kPa,weight_MN",
@@ -250,6 +369,7 @@ class Reading(unittest.TestCase):
         )
         np.testing.assert_allclose(log.time, [60, 120, 240])
         np.testing.assert_allclose(log.weight, [1000, 1000, 1100])
+        self.assertNotIn("spike", " ".join(log.remarks))
         self.assertIn("1 rows without depth and suction", log.remarks[0])
         self.assertIn("1 repeated rows", log.remarks[1])
         self.assertIn("were sorted", log.remarks[2])
@@ -258,6 +378,11 @@ class Reading(unittest.TestCase):
         for lines, text in (
             (("depth_m,qc_MPa", "1,2"), "no row names a column of depth and one of"),
             (("depth_m,suction", "1,2"), "'suction' has no unit that is known"),
+            (
+                ("depth_m,dp (torr)", "1,2"),
+                r"'dp \(torr\)' has the unit 'torr', .* in one of kPa, Pa, .*psi",
+            ),
+            (("depth_m,druck_mbar", "1,2"), "resistance, only depth_m, druck_mbar; "),
             (("depth_m,suction_kPa,dp_kPa", "1,2,3"), "one column of suction"),
             (("depth_m,suction_kPa", "1,-5", "2,-6"), "suction is negative"),
             (("depth_m,suction_kPa", "1,x", "2,"), "0 rows have a number"),

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PAGE, PICTURE, TABLE = "vessel.html", "vessel.png", "vessel.csv"
+EXTRAPOLATED = "extrapolated"  # the column that names the lines that are
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -70,11 +71,17 @@ def columns_of(
 
 
 def write_page(
-    path: Path, expected: "Expected", said: list[str], columns: dict[str, np.ndarray]
+    path: Path,
+    expected: "Expected",
+    said: list[str],
+    columns: dict[str, np.ndarray],
+    extrapolated: list[str],
 ) -> Path:
-    """Write the page of a log beside its picture; return its path."""
+    """Write the page of a log beside its picture; return its path. extrapolated: which
+    lines are so in each row."""
     from caisson import report
     from caisson.design.reasons import text_of
+    from caisson.log import words
     from caisson.template import picture_of, template
 
     shown = expected.run.shown
@@ -91,9 +98,9 @@ def write_page(
     text = template(HERE / "page.html.jinja").render(
         title=expected.title,
         said=said,
-        source=expected.source,
-        heads=heads,
-        rows=list(zip(*texts)),
+        source=words.of_source(expected),
+        heads=[*heads, EXTRAPOLATED],
+        rows=list(zip(*texts, extrapolated)),
         picture=picture_of(path.parent / PICTURE),
         style=css.read_text(encoding="utf-8"),
     )
@@ -106,17 +113,22 @@ def write(directory: Path, measured: Path) -> tuple[list[Path], list[str]]:
     from caisson.log import forecast, picture, words
     from caisson.log.expected import expected_of
     from caisson.log.measured import bins_of, read, weight_of
-    from caisson.table import write_columns
+    from caisson.table import digits, write_csv
 
     log, expected = read(measured), expected_of(Results(directory))
     bins = bins_of(measured, log, expected)
     found = forecast.forecast_of(expected, bins, weight_of(log, expected))
     said = words.said(expected, bins, forecast.fit_of(expected, bins), found)
+    said += words.left_out(log, expected, bins)
     columns = columns_of(expected, bins, found)
+    beyond = [expected.extrapolated_at(depth) for depth in columns["depth_m"]]
+    numbers = [[digits(x, 4) for x in column] for column in columns.values()]
+    rows = list(zip(*numbers, beyond))
+    on_page = [*said, *words.of_gauges(log)]
     files = [
         picture.draw(directory / PICTURE, expected, log, bins, found),
-        write_columns(directory / TABLE, columns, 4),
-        write_page(directory / PAGE, expected, [*said, *words.of_gauges(log)], columns),
+        write_csv(directory / TABLE, [*columns, EXTRAPOLATED], rows),
+        write_page(directory / PAGE, expected, on_page, columns, beyond),
     ]
     return files, said
 

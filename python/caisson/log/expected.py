@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson import band, curves, evaluation
-from caisson.band import BEST, HIGH, LOW
+from caisson.band import BEST, ESTIMATES, HIGH, LOW
 from caisson.plot import suction_methods, theory
 from caisson.report.installation import Rate, installation_of
 from caisson.report.scene import end_of, plug_area
@@ -29,7 +29,8 @@ NO_BAND = "no run of low and high resistance is there"
 class Expected:
     """Columns [n] at depths [n] (m): resistances (kN), and the allowable suction (kPa)
     with what governs it; the weight in water (kN), the area inside (m2), what low and
-    high are, and the depth where the scene ends (m)."""
+    high are, the depth where the scene ends (m), and where low, best and high are
+    extrapolated, as no run has been there."""
 
     run: Results
     depth: np.ndarray
@@ -42,11 +43,34 @@ class Expected:
     area: float
     source: str
     planned: float
+    extrapolated: dict[str, np.ndarray]
 
     @property
     def title(self) -> str:
         """The title of the scene, or the name of the directory."""
         return str(self.run.summary.get("title") or self.run.directory.resolve().name)
+
+    def known_to(self, name: str) -> float:
+        """Return the depth (m) below which low, best or high is extrapolated; the last
+        one where it is not."""
+        known = self.depth[~self.extrapolated[name]]
+        return float(known[-1] if len(known) else self.depth[0])
+
+    def extrapolated_at(self, depth: float) -> str:
+        """Return which of low, best and high are extrapolated at a depth (m)."""
+        return " ".join(x for x in ESTIMATES if depth > self.known_to(x) + curves.EDGE)
+
+    def extrapolations(self, upto: float = np.inf) -> str:
+        """Return which of low, best and high are extrapolated above a depth (m), and
+        from where on, in words; "" for none."""
+        place, end = self.run.shown.place, min(upto, float(self.depth[-1]))
+        parts = [
+            f"{'best and allowable' if name == BEST else name} from"
+            f" {place(self.known_to(name))} on"
+            for name in ESTIMATES
+            if self.known_to(name) < end
+        ]
+        return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
 
     def suction(
         self, resistance: np.ndarray, weight: float | None = None
@@ -166,6 +190,10 @@ def expected_of(run: Results) -> Expected:
         source = "the runs of low and high resistance"
     else:
         ends, source = band_about(run, at, best)
+    extrapolated = {
+        name: ~np.isfinite(line)
+        for name, line in zip(ESTIMATES, (ends[0], found[BEST], ends[1]))
+    }
     low, high = (continued(side, best) for side in ends)
     limits = installation_of(run, Rate(), at)
     assert limits is not None  # it has a required suction
@@ -181,4 +209,5 @@ def expected_of(run: Results) -> Expected:
         plug_area(run.scene),
         source,
         end_of(run) or end,
+        extrapolated,
     )

@@ -34,11 +34,13 @@ LEAST_NOISE = 0.02  # of the resistance of a step: gauges are not better
 
 class Bins(NamedTuple):
     """A log in steps of depth, [n] each: depth (m), resistance (kN) and its error as a
-    share of it."""
+    share of it; and the depths (m) of the steps that are left out, which have a stop.
+    """
 
     depth: np.ndarray
     resistance: np.ndarray
     error: np.ndarray
+    stops: tuple[float, ...] = ()
 
 
 class Fit(NamedTuple):

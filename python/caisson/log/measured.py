@@ -17,51 +17,102 @@ import numpy as np
 
 from caisson.design import cone_file, cone_grid
 from caisson.design.cone_table import Rows, cell_of, is_number, value_of
-from caisson.design.cone_words import BRACKETS, LENGTH, STRESS, plain
+from caisson.design.cone_words import BRACKETS, plain
+from caisson import disk
 from caisson.disk import InputError
 from caisson.log.expected import Expected
 from caisson.log.forecast import LEAST_NOISE, Bins
 from caisson.terminal import printable
 
-FORCE = {"n": 1e-3, "kn": 1.0, "mn": 1e3, "t": 9.81}
+LENGTH = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
+PRESSURE = {
+    **{"kPa": 1.0, "Pa": 1e-3, "MPa": 1e3, "bar": 100.0, "mbar": 0.1, "hPa": 0.1},
+    **{"kN/m2": 1.0, "N/m2": 1e-3, "MN/m2": 1e3, "N/mm2": 1e3, "kg/cm2": 98.0665},
+    **{"psi": 6.894757, "psf": 0.04788026, "ksf": 47.88026, "atm": 101.325},
+    **{"mH2O": 9.80665, "mwc": 9.80665, "mmHg": 0.1333224, "inHg": 3.386389},
+}
+TON, POUND = 9.80665, 4.448222e-3  # kN
+FORCE = {
+    **{"kN": 1.0, "N": 1e-3, "MN": 1e3, "t": TON, "te": TON, "tonnes": TON},
+    **{"kg": TON / 1e3, "lb": POUND, "lbf": POUND, "kip": 1e3 * POUND},
+}
 HOUR = 3600.0
-FLOW = {"m3/h": 1.0, "m3/s": HOUR, "l/s": 3.6, "l/min": 0.06, "m3/min": 60.0}
+FLOW = {
+    **{"m3/h": 1.0, "m3/hr": 1.0, "m3/min": 60.0, "m3/s": HOUR, "l/s": 3.6},
+    **{"l/min": 0.06, "lpm": 0.06, "l/h": 1e-3, "gpm": 0.2271247},
+}
+ANGLE = {
+    **dict.fromkeys(("deg", "degree", "degrees", "°"), 1.0),
+    **{"rad": 180 / np.pi, "mrad": 0.18 / np.pi},
+}
+TIME = {
+    **{"s": 1.0, "sec": 1.0, "min": 60.0, "h": HOUR, "hr": HOUR, "d": 24 * HOUR},
+    "ms": 1e-3,
+}
 
 
 class Quantity(NamedTuple):
     """A column: its units as factors, that without one ("" for none: it is refused),
-    and its names without blanks."""
+    the unit that its numbers have here, and its names without blanks."""
 
     units: dict[str, float]
     usual: str
+    unit: str
     words: str
+
+    def factor(self, unit: str) -> float | None:
+        """Return what numbers in a unit, in small letters, are multiplied by; None
+        where it is not known."""
+        return {plain(name): x for name, x in self.units.items()}.get(unit)
 
 
 QUANTITIES = {
     "time": Quantity(
-        {"s": 1.0, "sec": 1.0, "min": 60.0, "h": HOUR, "d": 24 * HOUR},
-        "s",
-        "time t clock timestamp datetime date utc elapsedtime",
+        TIME, "s", "s", "time t clock timestamp datetime date utc elapsedtime"
     ),
     "depth": Quantity(
-        LENGTH, "m", "depth z penetration tipdepth embedment skirtpenetration"
+        LENGTH,
+        "m",
+        "m",
+        "depth z penetration tipdepth embedment skirtpenetration tippenetration"
+        " penetrationdepth skirtdepth",
     ),
     "suction": Quantity(
-        {**{k: v / 1e3 for k, v in STRESS.items()}, "mbar": 0.1},
+        PRESSURE,
         "",
-        "suction s underpressure differentialpressure dp pressuredifference",
+        "kPa",
+        "suction s underpressure differentialpressure dp pressuredifference pressure"
+        " vacuum suctionpressure diffpressure deltap pressuredifferential"
+        " appliedsuction pumpsuction netsuction",
     ),
-    "flow": Quantity(FLOW, "m3/h", "flow q pumpflow flowrate discharge"),
+    "flow": Quantity(
+        FLOW, "m3/h", "m3/h", "flow q pumpflow flowrate discharge pumprate"
+    ),
     "tilt": Quantity(
-        {"deg": 1.0, "degree": 1.0, "degrees": 1.0, "°": 1.0},
+        ANGLE, "deg", "deg", "tilt inclination totaltilt tiltangle resultanttilt"
+    ),
+    "pitch": Quantity(
+        ANGLE,
         "deg",
-        "tilt inclination heel",
+        "deg",
+        "pitch trim pitchangle trimangle tiltx xtilt inclinationx xinclination tilt1"
+        " inclination1 tilta tiltn tiltns",
+    ),
+    "roll": Quantity(
+        ANGLE,
+        "deg",
+        "deg",
+        "roll heel list rollangle heelangle tilty ytilt inclinationy yinclination"
+        " tilt2 inclination2 tiltb tilte tiltew",
     ),
     "weight": Quantity(
-        FORCE, "", "weight weightinwater submergedweight weightonsoil ballast"
+        FORCE, "", "kN", "weight weightinwater submergedweight weightonsoil ballast"
     ),
     "resistance": Quantity(
-        FORCE, "", "resistance penetrationresistance soilresistance totalresistance"
+        FORCE,
+        "",
+        "kN",
+        "resistance penetrationresistance soilresistance totalresistance",
     ),
 }
 EXAMPLE = "time_s, depth_m, suction_kPa, flow_m3/h, tilt_deg, weight_kN"
@@ -69,8 +120,14 @@ SHARE = 0.01  # of the way: the length of a step
 NEEDED = {"depth", "suction", "weight", "resistance"}  # if there, to be understood
 LONG = 3.0  # times as long as its neighbors is a step with a stop
 LEAST_SUCTION = 0.03  # of the largest one, below which the weight may hang on a crane
-JUMP = 4.0  # times the scatter, by which a step is off
 FEWEST = 3  # steps of a fit
+AROUND = 9  # readings whose median is the level at the middle one
+SPIKE = 3  # readings at most; a longer pulse is one of the pump or of the soil
+JUMP = 2.0  # times all readings around, above which a few are a spike
+END_JUMP = 4.0  # the same for the first and last, behind which no reading is normal
+QUIET = 0.1  # of the usual level, below which the pump may have stopped
+MOST = 1e12  # in the unit of a quantity, beyond which a number means none
+NAMED = 5  # spikes that are named one by one
 
 # places of the cells, and what their numbers are multiplied by
 Columns = dict[str, tuple[tuple[int, ...], float]]
@@ -94,14 +151,14 @@ class Log(NamedTuple):
 def head_of(text: str) -> tuple[str, list[str]]:
     """Return the quantity of a head, "" where it is not known, and what may be its
     unit: that in brackets, or the last words, as of flow_m3_h."""
-    low = plain(text)
-    inside = [re.sub(r"\s", "", unit) for unit in BRACKETS.findall(low)]
+    low = plain(text).replace("δ", "d").replace("∆", "d")
+    inside = [re.sub(r"[^a-z0-9/°%]", "", unit) for unit in BRACKETS.findall(low)]
     words = re.findall(r"[a-z0-9/°]+", BRACKETS.sub(" ", low))
     for n in range(len(words), 0, -1):
         for quantity, known in QUANTITIES.items():
             if "".join(words[:n]) in known.words.split():
                 ends = ["/".join(words[i:]) for i in range(n, len(words))]
-                return quantity, [*inside, *ends]
+                return quantity, [*filter(None, inside), *ends]
     return "", []
 
 
@@ -110,26 +167,33 @@ def columns_of(path: Path, row: int, cells: Sequence[str]) -> tuple[Columns, lis
     heads that are not read. Raises InputError where one that is needed has no unit."""
     found: Columns = {}
     unread = []
-    for place, text in enumerate(cells):
-        quantity, units = head_of(text)
-        known = QUANTITIES[quantity].units if quantity else {}
-        usual = QUANTITIES[quantity].usual if quantity else ""
-        unit = next((u for u in units if u in known), "" if units else usual)
-        if quantity == "time":
-            places = found.get(quantity, ((), 1.0))[0]
-            found[quantity] = (*places, place), known.get(unit, 1.0)
-        elif unit and quantity not in found:
-            found[quantity] = (place,), known[unit]
-        elif quantity in NEEDED:
-            what = (
-                "is another one" if quantity in found else "has no unit that is known"
-            )
-            raise InputError(
-                f"{path}, row {row}: the column {text.strip()!r} {what}; there is to be"
-                f" one column of {quantity}, in one of {', '.join(known)}"
-            )
-        elif text.strip():
-            unread.append(text.strip())
+    for place, text in enumerate(map(str.strip, cells)):
+        name, units = head_of(text)
+        if not name:
+            unread += [text] if text else []
+            continue
+        quantity = QUANTITIES[name]
+        usual = [] if units else [plain(quantity.usual)]
+        factors = [quantity.factor(unit) for unit in (*units, *usual)]
+        factor = next((x for x in factors if x is not None), None)
+        if name == "time":
+            places = found.get(name, ((), 1.0))[0]
+            found[name] = (*places, place), factor or 1.0
+        elif factor is not None and name not in found:
+            found[name] = (place,), factor
+        else:
+            known = ", ".join(quantity.units)
+            what = "has no unit that is known"
+            if units:
+                unit = units[0 if BRACKETS.search(text) else -1]
+                what = f"has the unit {unit!r}, which is not known"
+            what = "is another one" if factor is not None else what
+            if name in NEEDED:
+                raise InputError(
+                    f"{path}, row {row}: the column {text!r} {what}; there is to be one"
+                    f" column of {name}, in one of {known}"
+                )
+            unread.append(f"{text} ({what}; one of {name} in {known} is read)")
     return found, unread
 
 
@@ -137,7 +201,7 @@ def seconds_of(text: str, factor: float) -> float:
     """Return a time in s: a number, a date with a time of the day, or the latter.
     Raises ValueError."""
     try:
-        return value_of(text) * factor
+        return scaled(text, factor)
     except ValueError:
         day = text if re.search(r"\d[-T ]\d", text) else f"2000-01-01T{text}"
         when = datetime.datetime.fromisoformat(day.replace("Z", "+00:00"))
@@ -156,9 +220,13 @@ def rows_of(path: Path) -> tuple[Rows, int]:
         known = {head_of(cell)[0] for cell in cells if not is_number(cell)}
         if "depth" in known and known & {"suction", "resistance"}:
             return rows, i
+    texts = (cells for _, cells in rows if not any(map(is_number, cells)))
+    heads = next(texts, list[str]())
+    there = f", only {', '.join(filter(None, heads))}" if any(heads) else ""
     raise InputError(
-        f"{path}: no row names a column of depth and one of suction or resistance; the"
-        f" heads are to be as {EXAMPLE}"
+        f"{path}: no row names a column of depth and one of suction or resistance"
+        f"{disk.one_line(there)[:200]}; the heads are to be as {EXAMPLE}, or suction as"
+        " underpressure, vacuum, differential pressure or dp"
     )
 
 
@@ -195,28 +263,110 @@ def read(path: Path) -> Log:
 
 
 def scaled(text: str, factor: float) -> float:
-    """Return a number times a factor. Raises ValueError."""
-    return value_of(text) * factor
+    """Return a number times a factor. Raises ValueError where it is none."""
+    value = value_of(text) * factor
+    if abs(value) > MOST:
+        raise ValueError(f"{text} is no reading")
+    return value
 
 
 def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     """Return the rows [n, quantities] in the order of time, without those that are
-    repeated. Raises InputError where suction is negative."""
+    repeated and without spikes. Raises InputError where suction is negative."""
     filled = np.nan_to_num(table, nan=-np.inf)  # an empty cell is like another
     once = table[np.sort(np.unique(filled, axis=0, return_index=True)[1])]
     if len(once) < len(table):
         remarks.append(f"{len(table) - len(once)} repeated rows are left out")
-    time = once[:, 0]
-    order = np.argsort(time if np.isfinite(time).all() else once[:, 1], kind="stable")
-    if np.isfinite(time).all() and (np.diff(time) < 0).any():
+    has_time = bool(np.isfinite(once[:, 0]).all())
+    if has_time and (np.diff(once[:, 0]) < 0).any():
         remarks.append("rows were not in the order of time, and were sorted")
-    columns = dict(zip(QUANTITIES, once[order].T))
-    if np.nanmedian(columns["suction"]) < 0:
+    if has_time:
+        once = once[np.argsort(once[:, 0], kind="stable")]
+    columns = without_spikes(dict(zip(QUANTITIES, once.T)), remarks)
+    if not has_time:
+        order = np.argsort(columns["depth"], kind="stable")
+        columns = {name: values[order] for name, values in columns.items()}
+    suction = columns["suction"][np.isfinite(columns["suction"])]
+    if len(suction) and np.median(suction) < 0:
         raise InputError(
             f"{path}: the suction is negative in most rows; write by how much the"
             " pressure below the lid is under that outside, as a positive number"
         )
+    columns["tilt"] = tilt_of(*(columns.pop(x) for x in ("tilt", "pitch", "roll")))
     return Log(**columns, remarks=tuple(map(printable, remarks)))
+
+
+def tilt_of(total: np.ndarray, pitch: np.ndarray, roll: np.ndarray) -> np.ndarray:
+    """Return the tilt [n] (degrees): that measured, or the resultant of those about two
+    axes, or the one about one axis; nan where there is none."""
+    slopes = np.tan(np.radians([pitch, roll]))
+    both = np.degrees(np.arctan(np.hypot(*slopes)))
+    one = np.where(np.isfinite(pitch), pitch, roll)
+    return np.where(np.isfinite(total), total, np.where(np.isfinite(both), both, one))
+
+
+def level_of(values: np.ndarray) -> np.ndarray:
+    """Return the median [n] of the AROUND values [n] about each of them; at the ends
+    that of the first and the last ones."""
+    width = min(AROUND, len(values) - 1 + len(values) % 2)
+    windows = np.lib.stride_tricks.sliding_window_view(values, width)
+    places = np.arange(len(values)) - width // 2
+    return np.asarray(np.median(windows, axis=1)[places.clip(0, len(windows) - 1)])
+
+
+def spikes_in(values: np.ndarray) -> np.ndarray:
+    """Return which readings [n] in the order of time are spikes: a few ones that exceed
+    all around them JUMP times, to whichever side, and behind which all is as before.
+
+    A step or a ramp is none, as the level follows it. Where the pump rests, the level
+    is the highest one of the log, or that of its pulses, so that a short pulse of the
+    pump is no spike.
+    """
+    size, spikes = np.abs(values), np.zeros(len(values), dtype=bool)
+    if len(size) < 2 * SPIKE - 1:
+        return spikes
+    level = level_of(size)
+    usual, pulses = (
+        float(np.median(x[x > 0])) if (x > 0).any() else 0.0 for x in (level, size)
+    )
+    level = np.where(level <= QUIET * usual, max(level.max(), pulses), level)
+    off = size > JUMP * level + QUIET * usual
+    edges = np.flatnonzero(np.diff(np.pad(off, 1).astype(int)))
+    for begin, end in edges.reshape(-1, 2):
+        first, last = begin == 0, end == len(size)
+        near = slice(max(begin - AROUND // 2, 0), end + AROUND // 2)
+        around = size[near][~off[near]].max(initial=float(level[begin]))
+        if last:  # suction may rise for good
+            around = max(around, float(level.max()) * JUMP / END_JUMP)
+        jump = END_JUMP if first or last else JUMP
+        is_short = end - begin <= min(SPIKE, (len(size) - 1) // 2)
+        spikes[begin:end] = is_short and size[begin:end].min() > jump * around
+    return spikes
+
+
+def without_spikes(
+    columns: dict[str, np.ndarray], remarks: list[str]
+) -> dict[str, np.ndarray]:
+    """Return columns [n] in the order of time, nan for a spike and without the rows of
+    spikes in depth; what they were goes to the remarks."""
+    depth, found = level_of(columns["depth"]), dict(columns)
+    for name, values in columns.items():
+        known = np.flatnonzero(np.isfinite(values))
+        if name == "time" or not len(known):
+            continue
+        spikes = known[spikes_in(values[known])]
+        if not len(spikes):
+            continue
+        unit = QUANTITIES[name].unit
+        texts = [f"{values[i]:.4g} {unit} at {depth[i]:.3g} m" for i in spikes[:NAMED]]
+        more = f" and {len(spikes) - NAMED} more" if len(spikes) > NAMED else ""
+        what = f"1 spike of {name} is" if len(spikes) == 1 else ""
+        what = what or f"{len(spikes)} spikes of {name} are"
+        remarks.append(f"{what} left out: {', '.join(texts)}{more}")
+        found[name] = values.copy()
+        found[name][spikes] = np.nan
+    rows = np.isfinite(found["depth"])
+    return {name: values[rows] for name, values in found.items()}
 
 
 def progress_of(log: Log) -> np.ndarray:
@@ -236,28 +386,41 @@ def weight_of(log: Log, expected: Expected) -> float:
     return float(known[-1]) if len(known) else expected.weight
 
 
+def least_suction(log: Log, expected: Expected) -> float:
+    """Return the suction (kPa) below which the weight may hang on a crane: a share of
+    the largest one, or of the largest that is expected where that is less."""
+    known = log.suction[np.isfinite(log.suction)]
+    largest = level_of(known).max() if len(known) else 0.0
+    high = expected.suction(expected.high).max()
+    return LEAST_SUCTION * float(min(largest, high) if high > 0 else largest)
+
+
+def hangs(log: Log, expected: Expected) -> np.ndarray:
+    """Return in which rows [n] the weight may hang on a crane, so that the suction does
+    not tell the resistance."""
+    with np.errstate(invalid="ignore"):
+        is_low = log.suction <= least_suction(log, expected)
+        is_weighed = np.isfinite(log.weight) & (log.suction >= 0)
+    return np.asarray(is_low & ~is_weighed & ~np.isfinite(log.resistance))
+
+
 def resistance_of(log: Log, expected: Expected) -> np.ndarray:
     """Return the resistance (kN) of each row [n]: that measured, or suction on the area
     inside and the weight, that of the scene where none is measured; nan where the
     weight alone may hang on a crane."""
     weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
     found = log.suction * expected.area + weight
-    with np.errstate(invalid="ignore"):
-        pulled = log.suction > LEAST_SUCTION * np.nanmax(
-            np.append(log.suction, 0.0), initial=0.0
-        )
-    known = pulled | (np.isfinite(log.weight) & (log.suction >= 0))
-    found = np.where(known, found, np.nan)
+    found = np.where(hangs(log, expected), np.nan, found)
     found = np.where(np.isfinite(log.resistance), log.resistance, found)
     return np.where(found > 0, found, np.nan)
 
 
 def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
-    """Return the log in steps of depth, without those that have a stop and those that
-    are off from all around. Raises InputError where too little is left."""
+    """Return the log in steps of depth, without those that have a stop. Raises
+    InputError where too little is left."""
     depth, force = progress_of(log), resistance_of(log, expected)
     width = SHARE * expected.planned
-    number = np.floor(depth / width).astype(int)
+    number = np.floor(depth / width)
     inside = np.isfinite(force) & (depth >= expected.depth[0])
     inside &= depth <= expected.depth[-1]
     found, times = list[tuple[float, float, float]](), list[float]()
@@ -270,7 +433,7 @@ def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
         found.append((float(np.mean(depth[rows])), float(np.exp(middle)), error))
         times.append(float(np.ptp(log.time[number == k])))
     some = np.array(found).reshape(-1, 3)
-    keep = ~has_stop(np.array(times)) & ~is_off(some)
+    keep = ~has_stop(np.array(times))
     if keep.sum() < FEWEST:
         last = depth.max()
         raise InputError(
@@ -278,7 +441,8 @@ def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
             f" {expected.depth[-1]:.3g} m, where the runs are, for a fit (the log goes"
             f" to {last:.3g} m); it takes {FEWEST} steps of {width:.2g} m"
         )
-    return Bins(*some[keep].T)
+    depths, forces, errors = some[keep].T
+    return Bins(depths, forces, errors, tuple(map(float, some[~keep, 0])))
 
 
 def neighbors(values: np.ndarray) -> np.ndarray:
@@ -293,12 +457,3 @@ def has_stop(times: np.ndarray) -> np.ndarray:
     if not np.isfinite(times).all():
         return np.zeros(len(times), dtype=bool)
     return np.asarray(times > LONG * neighbors(times) + 1e-9)
-
-
-def is_off(some: np.ndarray) -> np.ndarray:
-    """Return which steps [n, 3] have a resistance far from those around."""
-    if len(some) < 5:
-        return np.zeros(len(some), dtype=bool)
-    logs = np.log(some[:, 1])
-    away = np.abs(logs - neighbors(logs))
-    return np.asarray(away > JUMP * np.maximum(some[:, 2], np.median(away)))

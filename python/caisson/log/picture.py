@@ -3,12 +3,15 @@
 the measured line, and the forecast, over depth downward."""
 import textwrap
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import disk
+from caisson.band import BEST, HIGH, LOW
+from caisson.log import words
 from caisson.log.expected import Expected
 from caisson.log.forecast import Bins, Forecast
 from caisson.log.measured import Log, resistance_of
@@ -29,7 +32,12 @@ def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
     axes.fill_betweenx(
         depth, low, high, color=GRAY, alpha=0.2, lw=0, label="expected, low to high"
     )
-    axes.plot(best, depth, color="black", lw=1.2, label="expected, best estimate")
+    draw_line(axes, expected, LOW, low, color=GRAY, lw=0.8)
+    draw_line(axes, expected, HIGH, high, color=GRAY, lw=0.8)
+    label = "expected, best estimate"
+    draw_line(axes, expected, BEST, best, color="black", lw=1.2, label=label)
+    if expected.extrapolations():
+        axes.plot([], [], "--", color=GRAY, lw=1.2, label="extrapolated: no run there")
     most = max(most, float(high.max()), 1e-3)
     limit, name = expected.allowable, governing_of(expected)
     seen = limit[np.isfinite(limit)]
@@ -46,6 +54,18 @@ def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
     axes.set_xlim(0, MARGIN * most)
     axes.set_ylim(1.02 * max(expected.planned, depth[-1]), 0)
     over_depth(axes, "suction (kPa)", "penetration of the skirt tip (m)")
+
+
+def draw_line(
+    axes: Axes, expected: Expected, name: str, line: np.ndarray, **style: Any
+) -> None:
+    """Draw the suction [n] (kPa) of low, best or high over depth; dashed where it is
+    extrapolated."""
+    is_guess, depth = expected.extrapolated[name], expected.depth
+    axes.plot(np.where(is_guess, np.nan, line), depth, **style)
+    near = np.convolve(is_guess, np.ones(3), "same") > 0  # with what it goes on from
+    style.pop("label", None)
+    axes.plot(np.where(near, line, np.nan), depth, ls=(0, (4, 3)), **style)
 
 
 def governing_of(expected: Expected) -> str:
@@ -92,6 +112,6 @@ def draw(
     draw_forecast(axes, forecast)
     draw_log(axes, expected, log, bins, forecast.weight)
     axes.legend(fontsize=8, framealpha=0.9, loc="best")
-    with_note(figure, textwrap.fill(f"Low and high: {expected.source}.", 110))
+    with_note(figure, textwrap.fill(" ".join(words.of_source(expected)), 110))
     in_units(figure, expected.run.shown)
     return disk.save(figure, path)

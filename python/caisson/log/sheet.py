@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import disk, evaluation
+from caisson.band import ESTIMATES
 from caisson.log import picture, words
 from caisson.log.expected import Expected, expected_of
 from caisson.results import Results
@@ -66,7 +67,7 @@ def chart(expected: Expected) -> Figure:
     title = "\n".join(textwrap.wrap(f"Log sheet: {expected.title}", 90))
     figure.text(0.1, 0.94, title, fontsize=10)
     figure.text(0.1, 0.91, SIGNED, fontsize=9)
-    note = [*criteria_of(expected), f"Low and high: {expected.source}."]
+    note = [*criteria_of(expected), *words.of_source(expected)]
     lines = [
         line
         for text in note
@@ -87,14 +88,20 @@ def table(expected: Expected, rows: list[list[float]]) -> Figure:
     heads += [f"{name}\n({UNITS[name]})" if name in UNITS else name for name in BLANK]
     factors = [shown.factor("m"), *[shown.factor("kPa")] * 4]
     cells = [
-        [digits(f * x, 3) for f, x in zip(factors, row)] + [""] * len(BLANK)
+        [*(digits(f * x, 3) for f, x in zip(factors, row)), *[""] * len(BLANK)]
         for row in rows
     ]
+    for row, texts in zip(rows, cells):
+        beyond = expected.extrapolated_at(row[0]).split()
+        for place, name in enumerate(ESTIMATES, 1):
+            texts[place] += "*" if texts[place] and name in beyond else ""
     height = (len(rows) + 2) / (ROWS + 2)
     found = axes.table(cells, colLabels=heads, bbox=(0, 1 - height, 1, height))
     found.auto_set_font_size(False)
     found.set_fontsize(8)
     figure.text(0.06, 0.95, SIGNED, fontsize=9)
+    if expected.extrapolations():
+        figure.text(0.06, 0.04, "* extrapolated, as no run has been there", fontsize=8)
     return figure
 
 
@@ -106,7 +113,12 @@ def write(directory: Path) -> list[Path]:
     pages = [chart(expected)]
     pages += [table(expected, rows[i : i + ROWS]) for i in range(0, len(rows), ROWS)]
     heads = ["depth_m", "low_kPa", "best_kPa", "high_kPa", "allowable_kPa"]
-    heads += ["time_s", "suction_kPa", "flow_m3/h", "tilt_deg", "weight_kN", "remarks"]
-    cells = [[digits(x, 4) for x in row] + [""] * len(BLANK) for row in rows]
+    heads += ["extrapolated", "time_s", "suction_kPa", "flow_m3/h", "tilt_deg"]
+    heads += ["weight_kN", "remarks"]
+    cells = [
+        [*(digits(x, 4) for x in row), expected.extrapolated_at(row[0])]
+        + [""] * len(BLANK)
+        for row in rows
+    ]
     write_csv(directory / TABLE, heads, cells)
     return [disk.save_pages(pages, directory / PDF), directory / TABLE]

@@ -7,7 +7,7 @@ import numpy as np
 
 from caisson.log.expected import Expected
 from caisson.log.forecast import Bins, Fit, Forecast
-from caisson.log.measured import Log
+from caisson.log.measured import Log, hangs, least_suction
 
 FEWEST = 3  # steps in a row that are outside of the band
 
@@ -83,7 +83,22 @@ def of_fit(fit: Fit) -> str:
     )
 
 
+def of_source(expected: Expected) -> list[str]:
+    """Return what low and high are, and what of the band is extrapolated."""
+    beyond = expected.extrapolations()
+    more = f"Extrapolated, as the run has ended there: {beyond}." if beyond else ""
+    return [f"Low and high: {expected.source}.", *filter(None, [more])]
+
+
 def of_forecast(expected: Expected, forecast: Forecast) -> str:
+    """Return how far the caisson goes, and what of that rests on extrapolation."""
+    text = reach_of(expected, forecast)
+    last = outcome_of(expected, forecast).last
+    beyond = expected.extrapolations(np.inf if last is None else last)
+    return f"{text} This rests on extrapolation: {beyond}." if beyond else text
+
+
+def reach_of(expected: Expected, forecast: Forecast) -> str:
     """Return how far the caisson goes."""
     shown, end = expected.run.shown, float(forecast.depth[-1])
     first, middle, last = outcome_of(expected, forecast)
@@ -117,8 +132,22 @@ def of_end(expected: Expected) -> str:
     )
 
 
+def left_out(log: Log, expected: Expected, bins: Bins) -> list[str]:
+    """Return what a fit does not use."""
+    place, found = expected.run.shown.place, list(log.remarks)
+    if n := int(hangs(log, expected).sum()):
+        found.append(
+            f"{n} rows with a suction of at most {least_suction(log, expected):.2g} kPa"
+            " are left out, as the weight may hang on a crane; a column weight_kN tells"
+        )
+    if bins.stops:
+        where = ", ".join(place(x, 1) for x in bins.stops)
+        found.append(f"steps with a stop are left out of the fit: at {where}")
+    return [f"{text[0].upper()}{text[1:]}." for text in found]
+
+
 def of_gauges(log: Log) -> list[str]:
-    """Return what flow, tilt and weight have been, and what was left out."""
+    """Return what flow, tilt and weight have been."""
     found = []
     if np.isfinite(log.flow).any():
         found.append(f"Largest flow {np.nanmax(log.flow):.3g} m³/h.")
@@ -130,8 +159,7 @@ def of_gauges(log: Log) -> list[str]:
         found.append(
             f"Weight in water at the end {last:.4g} kN, taken for the forecast."
         )
-    remarks = (f"{text[0].upper()}{text[1:]}." for text in log.remarks)
-    return [*found, *remarks]
+    return found
 
 
 def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[str]:
