@@ -116,7 +116,7 @@ class Run(ProgramTest):
         low, high = (history(path / f"own_{end}") for end in ("low", "high"))
         self.assertGreater(high[-1]["total_force_N"], low[-1]["total_force_N"])
         (path / "own_low/run_key.json").unlink()
-        text = self.run_scene_and_draw(SUCCESS, "--band", best)
+        text = self.run_scene_and_draw(SUCCESS, best, "--band")
         self.assertEqual(text.count("complete, and not repeated; --overwrite"), 2)
         self.assertIn("own_low: from its start", text)
         self.assertEqual(history(path / "own_low"), low)

@@ -44,6 +44,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "%(prog)s [--ranks N | --band] [--error 5%% [--budget TIME]] FILE.prm"
         " [option of caisson_mpm]..."
     )
+    add_own(parser)
+    parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
+
+
+def add_own(parser: argparse.ArgumentParser) -> None:
+    """Add the options that the program does not have."""
     text = "MPI ranks, default: as many as pay on this machine"
     parser.add_argument("--ranks", type=int, metavar="N", help=text)
     text = "run the estimates of low and high resistance, too"
@@ -52,7 +58,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--error", metavar="5%", help=text)
     text = "with --error: time of all runs on one core, such as 30min (default: 2h)"
     parser.add_argument("--budget", metavar="TIME", help=text)
-    parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE.prm ...")
+
+
+def take_own(options: argparse.Namespace) -> None:
+    """Take the options that the program does not have from the words after the file,
+    where they may stand as well."""
+    parser = argparse.ArgumentParser(
+        prog="caisson run", add_help=False, allow_abbrev=False
+    )
+    add_own(parser)
+    _, options.arguments = parser.parse_known_args(options.arguments, options)
 
 
 def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
@@ -208,6 +223,7 @@ def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
 
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
+    take_own(options)
     if options.ranks is not None and options.ranks < 1:
         raise RunError("--ranks must be 1 or more")
     if not options.arguments:
@@ -221,7 +237,11 @@ def main(options: argparse.Namespace) -> int:
         raise RunError("--budget belongs to --error")
     if options.band:
         if options.ranks or options.error:
-            raise RunError("--band runs each scene on one core: without other options")
+            other = "--ranks" if options.ranks else "--error"
+            raise RunError(
+                f"--band takes --set, --restart and --overwrite, not {other}: each"
+                " scene has one core"
+            )
         return run_band.main(arguments, draw, reporting)
     directory, stop_file = places_of(arguments)
     error_bar = None
