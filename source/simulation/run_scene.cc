@@ -143,7 +143,10 @@ namespace CaissonMPM
     if (!cost.failure.empty())
       origins.add_warning(cost.failure);
     print_warnings(origins, out);
-    out << printable(command_line.parameter_file) << " is valid\n"
+    out << printable(command_line.parameter_file)
+        << (cost.failure.empty() ?
+              " is valid\n" :
+              " has no wrong entry, but its first steps fail\n")
         << describe(cost);
     finish(out);
     return ExitStatus::success;

@@ -186,6 +186,7 @@ class Faults(UserMaterialTest):
         self.compiled("elastic.c", "  if (*kinc == 1) stress[0] *= 1e30;")
         text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=law)
         self.assert_words(["warning: the first steps", f"({LAYER}/Library)"], text)
+        self.assertNotIn("is valid", text)
 
     def test_cause_of_a_lost_point(self) -> None:
         """A run that breaks says that the law may be the cause."""
