@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes that `caisson suggest` writes for caissons and soils drawn at random.
 
-Diameters of 0.1 to 20 m, walls of 0.2 to 2 % of them, sand by angle and by density,
-clay of 2 to 200 kPa that is uniform or grows with depth, two and three layers, an
-embedment that is left open, 0 or given, sand with and without weight. The same seed
-gives the same scenes. Each must be written, be accepted by --validate --strict, and run
-to a tenth of its skirt with status 0, without a warning that is of the tool's own
-choice (energy, transfer, a tip force that falls), in at most three times its estimate.
-Runs that are complete are not repeated. table.csv and table.md have what each did.
+Diameters of 50 mm to 25 m, walls of 0.1 to 5 % of them, skirts of 0.1 to 10 of them,
+sand by angle and by density, clay of 2 to 200 kPa that is uniform or grows with depth,
+two and three layers, an embedment that is left open, 0 or given, jacked or with a
+weight and suction. The same seed gives the same scenes. Each must be written, be
+accepted by --validate --strict, and run to a tenth of its skirt, or as far as --seconds
+of its estimate go, with status 0, without a warning that is of the tool's own choice
+(energy, transfer, a tip force that falls), in at most three times its estimate. Runs
+that are complete are not repeated. table.csv and table.md have what each did.
 """
 import argparse
 import contextlib
@@ -27,7 +28,7 @@ from caisson.results import Results, ResultsError
 from caisson.runner import Run, RunError, Status, query, read_parameters
 from lab import machine, outcome
 
-NUMBER, QUICK, SEED = 60, 6, 49
+NUMBER, QUICK, SEED = 80, 6, 63
 SHARE = 0.1  # of the skirt, to which a run goes
 SLOWEST = 3.0  # times the estimate
 OWN_CHOICE = re.compile("energy|transfer|falls|limiter|inertia", re.I)
@@ -108,6 +109,16 @@ class Draw:
         """Return one of some words."""
         return words[int(self.next() * len(words))]
 
+    def skirt(self, diameter: float) -> float:
+        """Return the length of a skirt: one in ten is the longest or the shortest."""
+        ends = 0.1, 10.0
+        share = self.next()
+        ratio = ends[share < 0.05] if share < 0.1 else self.between(*ends)
+        return min(
+            max(float(f"{diameter * ratio:.2g}"), ends[0] * diameter),
+            ends[1] * diameter,
+        )
+
     def angle_sand(self) -> str:
         """Return sand by its friction angle."""
         return f"phi = {self.between(28, 42):g}, E = {self.between(5, 80):g} MPa"
@@ -154,9 +165,9 @@ def case_of(seed: int, number: int) -> Case:
     """Return a case, which depends on nothing but seed and number."""
     draw = Draw(f"{seed}/{number}")
     soil = SOILS[number % len(SOILS)]
-    diameter = draw.between(0.1, 20)
-    wall = float(f"{diameter * draw.between(0.002, 0.02):.2g}")
-    skirt = float(f"{diameter * draw.between(0.4, 2.5):.2g}")
+    diameter = draw.between(0.05, 25)
+    wall = float(f"{diameter * draw.between(0.001, 0.05):.2g}")
+    skirt = draw.skirt(diameter)
     embedment = EMBEDMENTS[(number // len(SOILS)) % len(EMBEDMENTS)]
     layers = draw.layers(soil, skirt)
     words = ["--diameter", f"{diameter:g}", "--skirt", f"{skirt:g}"]
@@ -165,11 +176,12 @@ def case_of(seed: int, number: int) -> Case:
         share = draw.between(0.01, 0.2) if embedment == "given" else 0.0
         words += ["--embedment", f"{share * skirt:.2g}"]
     weight = "-"
-    is_sand = not any("su" in layer for layer in layers)
-    if is_sand and embedment != "zero" and draw.next() < 0.7:
+    if embedment != "zero" and draw.next() < 0.7:
         steel = math.pi * diameter * wall * skirt * 68e3  # N, in water
         weight = f"{steel * draw.between(1, 4) / 1e3:.2g}kN"
         words += ["--weight", weight]
+        if draw.next() < 0.5:
+            words += ["--water-depth", f"{draw.between(1, 100):g}"]
     for layer in layers:
         words += ["--layer", layer]
     return Case(number, soil, diameter, skirt, wall, embedment, weight, words)
@@ -186,9 +198,9 @@ def write_scene(case: Case, file: Path) -> bool:
     return status == 0
 
 
-def run_of(file: Path, directory: Path, walls: float | None) -> Run:
-    """Return the run to a tenth of the skirt, or as far again below its start; or over
-    so many thicknesses of the wall."""
+def run_of(file: Path, directory: Path, walls: float | None, share: float = 1) -> Run:
+    """Return the run over a share of the way to a tenth of the skirt, or as far again
+    below its start; or over so many thicknesses of the wall."""
     entries = read_parameters([str(file)])
     skirt, start, wall = (
         float(entries[f"Rigid body/{name}"])
@@ -197,6 +209,7 @@ def run_of(file: Path, directory: Path, walls: float | None) -> Run:
     end = max(SHARE * skirt, start + SHARE / 2 * skirt)
     if walls is not None:
         end = start + walls * wall
+    end = start + share * (end - start)
     changes = {"Time/End penetration": f"{end:.6g}", "Output/Frame penetrations": ""}
     return Run(file, {**changes, "Output/Frame interval": "never"}, directory)
 
@@ -230,10 +243,15 @@ def look_at(case: Case, run: Run, is_timed: bool) -> None:
 def try_case(case: Case, options: argparse.Namespace) -> Case:
     """Validate and run a case whose scene is written."""
     file = options.results / f"scene_{case.number:02d}.prm"
-    run = run_of(file, options.results / f"scene_{case.number:02d}", options.walls)
+    directory = options.results / f"scene_{case.number:02d}"
+    run = run_of(file, directory, options.walls)
     try:
         query([str(file), "--validate", "--strict"], run.program)
         case.estimate = run.validate().seconds  # of the way to a tenth
+        if options.walls is None and case.estimate > options.seconds:
+            share = options.seconds / case.estimate
+            run = run_of(file, directory, None, share)
+            case.estimate = run.validate().seconds
     except RunError as error:
         case.faults.append("refused: " + " ".join(str(error).split()))
         return case
@@ -254,6 +272,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=int, default=SEED)
     add("--only", type=int, action="append", metavar="N", help="scenes of this number")
     add("--jobs", type=int, default=1, help="runs at a time")
+    text = "of its estimate, to which a run is shortened"
+    add("--seconds", type=float, default=30.0, metavar="S", help=text)
     text = "end a run after so many times its estimate, and a minute"
     add("--limit", type=float, default=5.0, help=text)
     add("--results", type=Path, default=RESULTS / "suggested")

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Sand by its density in `caisson suggest`: the text of scenes and studies. That the
-program accepts them is in tests/program/test_suggest.py."""
+"""Sizes of caissons, and sand by its density, in `caisson suggest`: the text of scenes
+and studies. That the program accepts them is in tests/program/test_suggest.py."""
 import argparse
+import contextlib
+import io
 import re
 import tempfile
 import tomllib
 import unittest
+import unittest.mock
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 
 from caisson import density_law, suggest
 from caisson.paths import SCENES
-from caisson.suggest import cone, sand, walls
+from caisson.suggest import cone, sand, sizes, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
@@ -67,6 +71,81 @@ def scene_in(*words: str) -> dict[str, str]:
     text = suggest.scene_of(options_of(*words), layers_in(*words), Path("own.prm"))
     pairs = re.findall(r"set (.*?) *= (.*)", text)
     return {name: value for name, value in pairs}
+
+
+class Bodies(unittest.TestCase):
+    """Caissons of all sizes: their mesh, and sizes that cannot be meant."""
+
+    def test_rows_that_the_travel_compresses(self) -> None:
+        """The program finds 0.00398305 m after a travel of 0.53 m, below its limit, in
+        a mesh 0.9 m deep for a diameter of 0.2 m, a skirt of 0.6 m and a wall of 8 mm.
+        The mesh is so deep now that a third of each row is left."""
+        (row,) = sizes.rows_between([0.1, 0.865], 0.008, 0.013, 1.2)
+        self.assertAlmostEqual(row * (1 - 0.53 / 0.765), 0.00398305, delta=1e-8)
+        for ratio, share, error in product((0.1, 3, 6, 10), (1e-3, 0.1), sizes.LEVELS):
+            for diameter in (0.05, 0.2, 3, 25):
+                body = sizes.Body(diameter, ratio * diameter, share * diameter)
+                sizes.check(body, None)
+                end, level = 0.94 * body.skirt, sizes.LEVELS[error]
+                tops = [0.0, body.skirt / 3]
+                mesh = sizes.mesh_of(body, 0.0, end, level, tops)
+                depth = -mesh.bottom - mesh.moving_zone
+                self.assertLess(end / depth, 0.667, body)
+                cell = max(mesh.cell_height, body.wall)
+                self.assertLess(mesh.smallest_row, cell * (1 - end / depth))
+
+    def test_the_bounds_themselves_are_allowed(self) -> None:
+        """Ten diameters and a tenth of one, as decimals are rounded."""
+        for d, skirt, wall in (
+            ("0.2", "2", "8mm"),
+            ("0.7", "0.07", "70mm"),
+            ("0.3", "3", "0.03"),
+            ("1.1", "11", "110mm"),
+            ("0.6", "0.06", "6cm"),
+        ):
+            words = ["--diameter", d, "--skirt", skirt, "--wall", wall]
+            options_of(*words, "--sand", "dense")
+        options_of("--skirt", "810mm", "--penetration", "0.81", "--sand", "dense")
+        for words in (["--skirt", "40.1"], ["--skirt", "0.399"], ["--wall", "401mm"]):
+            with self.assertRaises(SuggestError):
+                options_of(*words, "--sand", "dense")
+
+    def test_sizes_that_cannot_be_meant(self) -> None:
+        """Their unit is missing, or is another one."""
+        steel = "the skirt alone weighs 42 kN"
+        for words, said in (
+            (["--wall", "0.02mm"], "below 1/5000 of the diameter"),
+            (["--weight", "120"], steel),
+            (["--weight", "120000kN"], steel),
+            (["--weight", "40kN", "--water-depth", "30000"], "below 12000 m"),
+            (["--diameter", "4mm"], "is not from 0.01 to 100 m"),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(SuggestError, said):
+                options_of(*words, "--sand", "dense")
+
+    def test_layers_and_the_mesh(self) -> None:
+        """What lies below the mesh is left out; what is too thin for it is refused."""
+        words = [
+            f"--layer={x}" for x in ("0: phi = 33", "3: su = 9 kPa", "30: phi = 33")
+        ]
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            number = suggest.within_mesh(options_of(*words), layers_in(*words))
+        self.assertEqual(number, 2)
+        self.assertIn("from 30 m on lies below the mesh", said.getvalue())
+        words = [
+            f"--layer={x}" for x in ("0: phi = 33", "3: su = 9 kPa", "3.001: phi=33")
+        ]
+        with self.assertRaisesRegex(SuggestError, "from 3 to 3.001 m is thinner than"):
+            scene_in(*words)
+
+    def test_a_trial_that_fails(self) -> None:
+        """Nothing says that such a scene is valid, and none is written."""
+        said = "a.prm has no wrong entry\nwarning: the first steps of the run fail: why"
+        with unittest.mock.patch.object(suggest, "query", return_value=said):
+            with self.assertRaisesRegex(
+                SuggestError, "first steps of the run fail: why"
+            ):
+                suggest.cost_of(Path("own.prm"), "")
 
 
 class Entries(unittest.TestCase):

@@ -54,6 +54,7 @@ class Sizes(SuggestTest):
             ("10", "8", "40mm", "2"),
             ("20", "20", "5cm", "10"),
             ("150mm", "200mm", "1.6mm", "20"),
+            ("0.2", "2", "8mm", "20"),  # ten diameters
         ]
         for number, (diameter, skirt, wall, error) in enumerate(cases):
             with self.subTest(diameter=diameter, wall=wall):
@@ -543,6 +544,8 @@ class Files(SuggestTest):
             (["--penetration", "9"], (SAND,), "length of the skirt"),
             (["--water-depth", "9"], (SAND,), "give --weight"),
             (["--weight", "-1"], (SAND,), "must be positive"),
+            ([], (SAND.replace("20e6", "20"),), "did you mean 20 MPa"),
+            ([], (SAND + ", K0 = 0.2",), "K0"),
             (["--wall-friction", "0.5"], (SAND,), "if this is the tangent write 26.6"),
             (["--tops", "0,3"], (SAND,), "--tops is for a cone test"),
             ([], ("0: Friction angle = 33 + 0.1*d",), "needs Youngs modulus"),

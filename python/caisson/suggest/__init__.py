@@ -32,6 +32,7 @@ import os
 import re
 import tempfile
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -57,6 +58,7 @@ FACTORS_OF_STRENGTH = (0.7, 0.85, 1, 1.15, 1.3)  # and of the stiffness of clay
 VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
+FAILS = "the first steps of the run fail"  # of --validate
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -113,7 +115,7 @@ def percent(text: str) -> int:
 
 def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
-    body, end = options, options.penetration
+    body, end = body_of(options), options.penetration
     soils = options.layer, options.cpt, options.sand, options.density
     if sum(soil is not None for soil in soils) != 1:
         raise SuggestError(
@@ -129,16 +131,7 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     for name in ("tops", "correlation", "soil", "unit_weight", "nkt"):
         if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
-    if body.wall > body.diameter / 10:
-        raise SuggestError(
-            f"--wall {body.wall:g} m is more than a tenth of the diameter"
-            f" {body.diameter:g} m; append mm to a length in millimeters"
-        )
-    if not 0.1 < body.skirt / body.diameter < 10:
-        raise SuggestError(
-            f"--skirt {body.skirt:g} m does not go with --diameter"
-            f" {body.diameter:g} m: their ratio must be between 0.1 and 10"
-        )
+    sizes.check(body_of(options), options.weight)
     begin, most = begin_of(options), end_of(options)
     if begin < 0 or end is None and begin >= most:
         raise SuggestError(f"--embedment must be from 0 to less than {most:g} m")
@@ -147,14 +140,15 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
             "--embedment 0 goes without --weight: suction needs a skirt that is in the"
             " soil; begin at some wall thicknesses"
         )
-    if end is not None and not begin < end <= body.skirt:
+    if end is not None and not begin < end <= body.skirt * (1 + sizes.ROUNDING):
         raise SuggestError(
             f"--penetration must be between {begin:g} m, where the caisson begins, and"
             f" the length of the skirt, {body.skirt:g} m"
         )
-    for name in ("weight", "water_depth"):
-        if (value := getattr(options, name)) is not None and value <= 0:
-            raise SuggestError(f"--{name.replace('_', '-')} must be positive")
+    if (depth := options.water_depth) is not None and not 0 < depth < sizes.DEEPEST:
+        raise SuggestError(
+            f"--water-depth {depth:g} m must be above 0 and below {sizes.DEEPEST:g} m"
+        )
     if options.water_depth and not options.weight:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
@@ -235,6 +229,11 @@ def flow_of(
         "has_clay": any(clays),
         "layers": soil,
     }
+
+
+def body_of(options: argparse.Namespace) -> sizes.Body:
+    """Return the sizes of the caisson."""
+    return sizes.Body(options.diameter, options.skirt, options.wall)
 
 
 def begin_of(options: argparse.Namespace) -> float:
@@ -352,13 +351,33 @@ def density_after(layer: Layer, change: float) -> float:
     return round(min(max(share, 0.0), 1.0), 4)
 
 
+def weakest_of(options: argparse.Namespace) -> float:
+    """Return the least factor of the strength of clay in what is written."""
+    if not options.study or options.cpt:
+        return 1.0
+    spread = getattr(options, "spread", None)
+    return band.weakest(spread) if spread else FACTORS_OF_STRENGTH[0]
+
+
+def within_mesh(options: argparse.Namespace, layers: Sequence[Layer]) -> int:
+    """Return how many of the layers the mesh has; say which it has not."""
+    tops, body = [layer.top for layer in layers], body_of(options)
+    deepest = sizes.deepest_top(
+        body, begin_of(options), end_of(options), sizes.LEVELS[options.error]
+    )
+    found = sum(top < deepest for top in tops)
+    if found < len(tops):
+        print(f"The soil from {tops[found]:g} m on lies below the mesh: left out")
+    return found
+
+
 def scene_of(
     options: argparse.Namespace, layers: Sequence[Layer], file: Path, of_band: str = ""
 ) -> str:
     """Return the text of the scene of a file. of_band: which estimate it is, with a
     comma before it."""
     level = sizes.LEVELS[options.error]
-    body = sizes.Body(options.diameter, options.skirt, options.wall)
+    body = body_of(options)
     start, end = begin_of(options), end_of(options)
     mesh = sizes.mesh_of(body, start, end, level, [layer.top for layer in layers])
     how = "by weight and suction" if options.weight else "jacked"
@@ -367,7 +386,9 @@ def scene_of(
     ramp = sizes.to_two_digits(min(0.5, RAMP_SHARE * (end - start) / VELOCITY))
     deep = reached(options, layers)
     soil = walls.with_walls(
-        clay.with_states(layers, end, -mesh.bottom), options.wall_friction, deep
+        clay.with_states(layers, end, -mesh.bottom, weakest_of(options)),
+        options.wall_friction,
+        deep,
     )
     return template(HERE / "scene.prm.jinja").render(
         title=f"a caisson of {size.length(body.diameter)} with a wall of"
@@ -447,12 +468,15 @@ def cost_of(file: Path, text: str) -> str:
         copy = Path(folder, file.name)
         copy.write_text(text, encoding="utf-8")
         try:
-            return query([str(copy), "--validate"]).replace(str(copy), str(file))
+            said = query([str(copy), "--validate"]).replace(str(copy), str(file))
         except RunError as error:
             said = said_of(text, file, copy, str(error))
             raise SuggestError(
                 f"the program refuses the scene, which is not written:\n{said}"
             ) from error
+    if FAILS in said:
+        raise SuggestError(f"the scene, which is not written, does not run:\n{said}")
+    return said
 
 
 def ends_of(
@@ -492,11 +516,15 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(walls.is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
+    n_layers = within_mesh(options, layers)
+    layers = layers[:n_layers]
+    if found:
+        found = replace(found, layers=found.layers[:n_layers])
     texts = {options.file: scene_of(options, layers, options.file)}
     ends = ends_of(options, layers, known, found) if estimates else {}
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
-        texts[file] = scene_of(options, soil, file, words)
+        texts[file] = scene_of(options, soil[:n_layers], file, words)
     costs = [cost_of(file, text) for file, text in texts.items()]
     if options.study:
         if estimates and options.spread:

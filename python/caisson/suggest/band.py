@@ -11,15 +11,19 @@ import argparse
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import radians, tan
 from pathlib import Path
+
+import numpy as np
 
 from caisson import density_law
 from caisson.band import HIGH, LOW
 from caisson.design import quantity
-from caisson.suggest import sand
+from caisson.suggest import clay, sand
 from caisson.suggest.entry import Entry, Layer, SuggestError
 from caisson.suggest.soil import (
     ANGLES_OF_FRICTION,
+    DERIVED,
     STRENGTH,
     Change,
     Given,
@@ -32,10 +36,23 @@ from caisson.suggest.walls import is_by_density, wall_friction_of
 from caisson.template import template
 
 WIDTH = 1.645  # standard deviations from the mean to the points of 5 and 95 %
+CUT = 2.5  # standard deviations below the mean, where a study cuts off
+LEAST_FACTOR = 0.1
 MOST = 0.5  # coefficient of variation, of which low is a fifth of best
 OF_STRENGTH = ("Cohesion", "Tension cut-off", "Youngs modulus")
+DEPTH_OF_LAST = 10.0  # m of the deepest layer, over which estimates are compared
 WALL = "Rigid body/Friction angle of the {} wall"
 SIGNS = {LOW: -1, HIGH: 1}
+OF_RESISTANCE = (
+    density_law.DENSITY,
+    "Active strength",
+    density_law.CRITICAL_ANGLE,
+    "Adhesion factor of the walls",
+    "Friction angle of the walls",
+    "Overconsolidation ratio",
+    "K0",
+    "Youngs modulus",
+)
 INVERSE = ("Void ratio", "Porosity", "Permeability", "Poisson ratio", "Solid density")
 
 
@@ -53,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
     add.add_argument(
         "--spread",
-        metavar='"Dr 10%%, su 20%%"',
+        metavar='"Dr 10%, su 20%"',
         help="in place of both: a coefficient of variation V for each number; low and"
         f" high are best times 1 -/+ {WIDTH} V, the 5 and 95 %% points of a normal"
         " distribution",
@@ -79,6 +96,13 @@ def spread_of(text: str) -> dict[str, float]:
             )
         found[word.strip()] = value
     return found
+
+
+def weakest(text: str) -> float:
+    """Return the least factor of s_u in the study of a spread. Raises SuggestError."""
+    spread = spread_of(text)
+    most = max((v for w, v in spread.items() if DERIVED.get(w) == STRENGTH), default=0)
+    return max(LEAST_FACTOR, 1 - CUT * most)
 
 
 def check(options: argparse.Namespace) -> None:
@@ -176,12 +200,62 @@ def of_texts(
         else:
             change = changed_by(texts, getattr(options, estimate), estimate, known)
         found[estimate] = layers_of(texts, known, law, change)
+        if not spread:
+            best = layers_of(texts, known, law)
+            refuse_exchanged(best, found[estimate], estimate)
     if missing := [word for word in spread if word not in used]:
         raise SuggestError(
             f"--spread: no layer gives {' or '.join(missing)}; it counts for numbers"
             " of --layer, and what is assumed follows them"
         )
     return found
+
+
+def quantities_of(layer: Layer, bottom: float) -> list[list[float]]:
+    """Return what gives a layer its resistance, at some depths, from the strength to
+    what counts less; all grow with it."""
+    depths = np.linspace(layer.top, bottom, 5).tolist()
+
+    def at_depths(name: str, sign: float = 1.0) -> list[float]:
+        found = (clay.number_of(layer, name, depth) for depth in depths)
+        return [sign * value for value in found if value is not None]
+
+    strengths = [at_depths(name) for name in OF_RESISTANCE[:-1]]
+    angle, cohesion = at_depths("Friction angle"), at_depths("Cohesion")
+    if angle and cohesion:  # together they are one strength
+        stresses = [max(clay.USUAL_WEIGHT * depth, 1.0) for depth in depths]
+        together = [
+            c + s * tan(radians(a)) for c, s, a in zip(cohesion, stresses, angle)
+        ]
+        strengths.insert(0, together)
+    return [
+        *strengths,
+        *(at_depths(name, -1.0) for name in ("Void ratio", "Porosity")),
+        at_depths(OF_RESISTANCE[-1]),
+    ]
+
+
+def refuse_exchanged(
+    best: Sequence[Layer], layers: Sequence[Layer], estimate: str
+) -> None:
+    """Refuse a layer that has more resistance in the low estimate than in the best one,
+    or less in the high one, by the first quantity in which they differ. Raises
+    SuggestError."""
+    sign = SIGNS[estimate]
+    bottoms = [layer.top for layer in best[1:]] + [best[-1].top + DEPTH_OF_LAST]
+    for one, other, bottom in zip(best, layers, bottoms):
+        if one.value("Law") != other.value("Law"):
+            continue
+        for a, b in zip(quantities_of(one, bottom), quantities_of(other, bottom)):
+            if len(a) != len(b) or not (change := sign * (sum(b) - sum(a))):
+                continue
+            if change < 0:
+                more = "more" if sign < 0 else "less"
+                raise SuggestError(
+                    f"--{estimate}: the layer from {one.top:g} m has {more} resistance"
+                    " than its --layer; exchange --low and --high, or the values"
+                )
+            break
 
 
 def study_of(
@@ -199,6 +273,8 @@ def study_of(
     return template(Path(__file__).with_name("spread_study.toml.jinja")).render(
         scene=os.path.relpath(options.file, options.study.parent),
         spread=options.spread,
+        cut=CUT,
+        least=LEAST_FACTOR,
         factors=factors_of(texts, layers, known, spread, "" if wall == "0" else wall),
     )
 

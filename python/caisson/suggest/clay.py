@@ -17,7 +17,7 @@ so that soft clay has 5 to 7 kN/m3 in water and a K0 of about 0.6, and stiff cla
 SI units.
 """
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +41,7 @@ USUAL_WEIGHT = 9.7e3  # N/m3 in water, of a layer above whose weight is no numbe
 RATIO = "Overconsolidation ratio"
 STATES = ("Porosity", "Void ratio", names.DENSITY, "Dry density")
 ROUNDS = 5
+DEPTHS = 40  # of a layer, at which K0 is held against the strength
 
 
 def is_undrained(layer: Layer) -> bool:
@@ -123,30 +124,42 @@ def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]
     return weight, [Entry("Porosity", f"{porosity:.3f}", f"{ASSUMPTION}: {why}")]
 
 
-def at_rest(layer: Layer, reach: Reach, weight: float) -> Entry:
-    """Return K0, within what the strength bears in all of the layer."""
+def held(k0: float, strength: str, points: Iterable[tuple[float, float]]) -> str:
+    """Return K0 as an entry, within what a strength (Pa) bears. points: depths (m) and
+    vertical effective stresses (Pa) of the layer."""
+    bound = f"{2 * MOBILIZED:g}*({strength})/s"
+    for depth, stress in points:
+        bearable = 2 * MOBILIZED * (value_at(strength, depth, stress) or 0.0)
+        if abs(1 - k0) * stress > bearable:
+            if k0 < 1:
+                return f"max({k0:.2g}, 1 - {bound})"
+            return f"min({k0:.2g}, 1 + {bound})"
+    return f"{k0:.2g}"
+
+
+def at_rest(layer: Layer, reach: Reach, weight: float, weakest: float) -> Entry:
+    """Return K0, within what the strength bears in all of the layer, times the factor
+    of the weakest soil of a study."""
     stress = reach.stress(reach.middle, weight)
     ratio = strength_of(layer, reach.middle, stress) / max(stress, 1.0)
     given = number_of(layer, RATIO, reach.middle)
     ocr = given or max(ratio / NORMAL_RATIO, 1.0) ** (1 / EXPONENT)
     k0 = float(np.clip((1 - SINE) * ocr**SINE, *RESTS_OF_CLAY))
     by = "" if given else f" by s_u/sigma'_v = {ratio:.2g} (Ladd 1991)"
-    text, why = f"{k0:.2g}", f"OCR {ocr:.2g}{by}, Mayne & Kulhawy (1982)"
-    for depth in (reach.top, reach.bottom):
-        stress = reach.stress(depth, weight)
-        if abs(1 - k0) * stress > MOBILIZED * 2 * strength_of(layer, depth, stress):
-            bound = f"{2 * MOBILIZED:g}*({layer.value('Cohesion')})/s"
-            text = (
-                f"max({k0:.2g}, 1 - {bound})"
-                if k0 < 1
-                else f"min({k0:.2g}, 1 + {bound})"
-            )
-    return Entry("K0", text, f"{ASSUMPTION}: {why}")
+    why = f"OCR {ocr:.2g}{by}, Mayne & Kulhawy (1982)"
+    depths = np.linspace(reach.top, reach.bottom, DEPTHS)
+    points = ((depth, reach.stress(depth, weight)) for depth in map(float, depths))
+    strength = layer.value("Cohesion")
+    if weakest < 1:
+        strength = f"{weakest:g}*({strength})"
+    return Entry("K0", held(k0, strength, points), f"{ASSUMPTION}: {why}")
 
 
-def with_states(layers: Sequence[Layer], end: float, floor: float) -> list[Layer]:
+def with_states(
+    layers: Sequence[Layer], end: float, floor: float, weakest: float = 1.0
+) -> list[Layer]:
     """Return the layers, where undrained clay has porosity and K0. end: of the skirt,
-    floor: of the mesh (m)."""
+    floor: of the mesh (m); weakest: the least factor of the strength in a study."""
     found, above = list[Layer](), 0.0
     bottoms = [layer.top for layer in layers[1:]] + [max(floor, layers[-1].top)]
     for layer, bottom in zip(layers, bottoms):
@@ -158,7 +171,7 @@ def with_states(layers: Sequence[Layer], end: float, floor: float) -> list[Layer
             entries = list(layer.entries)
             if not layer.value("K0"):
                 entries = [entry for entry in entries if entry.name != RATIO]
-                added.append(at_rest(layer, reach, weight))
+                added.append(at_rest(layer, reach, weight, weakest))
             layer = Layer(layer.top, [*entries, *added], layer.warning)
         found.append(layer)
         above = reach.stress(bottom, weight)

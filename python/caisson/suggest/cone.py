@@ -16,6 +16,7 @@ from caisson.design.ground import CLAY, SAND, SILT
 from caisson.design.interpretation import Interpretation
 
 REACH = 1.5  # times the skirt: the test counts to this depth
+GOES_ON = 4.0  # times the end of the test: the deepest mesh there
 
 
 def refuse_silt(found: Interpretation, end: float) -> None:
@@ -110,6 +111,20 @@ def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
     return sand.entries_of(density, name, known)
 
 
+def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
+    """Return K0 of clay within what its low strength bears, so that it holds for all
+    estimates."""
+    ground, rows = found.ground, e.layer.rows
+    points = list(zip(map(float, ground.depth[rows]), map(float, ground.stress[rows])))
+    deep, stress = points[-1]
+    if e is found.layers[-1]:  # goes on below the test
+        points.append((GOES_ON * deep, GOES_ON * stress))
+    low = number(e.values[STRENGTH].low)
+    text = clay.held(float(number(e.values[K0].best)), low, points)
+    within = "" if "s" not in text else ", within what the low strength bears"
+    return Entry("K0", text, f" # FROM CPT{within}")
+
+
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
     """Return law, strength and stiffness of a layer with one friction angle; clay, and
     silt below the skirt, are undrained."""
@@ -134,7 +149,7 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
         Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
         Entry("Youngs modulus", modulus, clay.MODULUS_REMARK),
         Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
-        Entry("K0", number(e.values[K0].best), " # FROM CPT"),
+        at_rest_of(found, e),
         Entry("Friction angle of the walls", "0"),
         ADHESION_OF_CLAY,
     ]

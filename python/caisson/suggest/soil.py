@@ -96,8 +96,32 @@ ANGLES_OF_FRICTION = (
     "Friction angle of the walls",
 )
 LIGHTEST_WET = 13.0  # kN/m3; a smaller unit weight is that in water
+LEAST_DRAINED = 10.0  # degrees; undrained clay may have less
 DOUBTFUL = 11.5, 14.0  # kN/m3; between them it may be either
 POROSITIES = (0.1, 0.9)
+
+# least and most of any soil, in the unit of the entry; of a modulus and a strength also
+# what is usual, to tell what a number was meant to be
+PLAUSIBLE = {
+    "Youngs modulus": (5e4, 1e11),
+    "Cohesion": (50.0, 1e8),
+    "Active strength": (50.0, 1e8),
+    "Permeability": (1e-14, 1.0),
+    "Solid density": (1500.0, 6000.0),
+    "Overconsolidation ratio": (1.0, 200.0),
+    "Void ratio": (0.1, 20.0),
+    "Porosity": (0.05, 0.95),
+    "Friction angle": (0.0, 60.0),
+    names.CRITICAL_ANGLE: (0.0, 60.0),
+    "Friction angle of the walls": (0.0, 60.0),
+    "Dilatancy angle": (-30.0, 45.0),
+}
+LEAST_OF_SAND = 5e5  # Pa, Youngs modulus of soil with a friction angle
+LEAST_RATIO = 10.0  # Youngs modulus over s_u
+USUAL = {"Youngs modulus": (2e6, 2e9), "Cohesion": (1e3, 1e6)}
+DEEPEST_TOP = 1e3  # m, of a layer
+LOOKED_AT = (0.0, 1.0, 3.0, 10.0, 30.0)  # m, depths of an expression
+USUAL_GRADIENT = 9e3  # Pa/m, of the vertical effective stress
 
 # texts of a layer by the names of entries, and what their values are multiplied by
 Given = tuple[dict[str, str], dict[str, float]]
@@ -230,6 +254,10 @@ def head_of(text: str) -> tuple[float, str]:
         top = quantity.value_of(head, "m")
     except ValueError:
         top = -1.0
+    if top > DEEPEST_TOP:
+        raise SuggestError(
+            f"--layer {text!r} begins at {top:g} m; append mm to a depth in millimeters"
+        )
     if not colon or top < 0:
         raise SuggestError(
             f"--layer {text!r} must begin with the depth of its top in meters and a"
@@ -251,6 +279,8 @@ def layer_of(
     top, rest = head_of(text)
     texts, factors = change(top, texts_in(rest, known))
     given = values_in(texts, known, factors)
+    as_cohesion = {"Cohesion": given[STRENGTH]} if STRENGTH in given else {}
+    refuse_implausible({**given, **as_cohesion}, known)
     weight, strength = given.pop(WEIGHT, ""), given.pop(STRENGTH, "")
     if is_clay_by_angle(given):
         strength = given.pop("Cohesion")
@@ -279,6 +309,54 @@ def layer_of(
     entries = entries_of(given | {e.name: e.value for e in derived}, text)
     warning = doubt_of(weight, given) if weight else ""
     return Layer(top, [remarks.get(e.name, e) for e in entries], warning)
+
+
+def values_at_depths(text: str) -> list[float]:
+    """Return an entry at some depths; none where its form is not known."""
+    values = (
+        expression.value_at(text, d, max(USUAL_GRADIENT * d, 1.0)) for d in LOOKED_AT
+    )
+    return [value for value in values if value is not None]
+
+
+def meant_by(name: str, value: float, unit: str) -> str:
+    """Return what a number may have been meant to be, or nothing."""
+    least, most = USUAL.get(name, USUAL["Cohesion"])
+    words = (
+        {"kPa": 1e3, "MPa": 1e6} if unit == "Pa" else {"%": 0.01} if not unit else {}
+    )
+    if unit != "Pa":
+        least, most = PLAUSIBLE[name]
+    for word, factor in words.items():
+        if least <= value * factor <= most:
+            return f": did you mean {value:g}{'' if word == '%' else ' '}{word}?"
+    return ""
+
+
+def refuse_implausible(given: Mapping[str, str], known: Mapping[str, str]) -> None:
+    """Refuse values that no soil has: their unit is missing or another one. given: what
+    is given of a layer, in the units of the entries. Raises SuggestError."""
+    for name, text in given.items():
+        found = values_at_depths(text) if name in PLAUSIBLE else []
+        if not found or name == "Cohesion" and max(found) == 0:
+            continue
+        least, most = PLAUSIBLE[name]
+        if name == "Youngs modulus":
+            (angle,) = values_at_depths(given.get("Friction angle", "0"))[:1] or (0.0,)
+            strength = values_at_depths(given.get("Cohesion", "0")) or [0.0]
+            if angle >= LEAST_DRAINED and max(strength) == 0:
+                least = LEAST_OF_SAND
+            elif angle == 0:
+                least = max(least, LEAST_RATIO * max(strength))
+        if max(found) < least or min(found) > most:
+            value, unit = (max if max(found) < least else min)(found), known.get(
+                name, ""
+            )
+            raise SuggestError(
+                f"--layer: {name} = {value:g} {unit}".rstrip()
+                + f" is outside {least:g} to {most:g}, the range of soil"
+                + meant_by(name, value, unit)
+            )
 
 
 def is_clay_by_angle(given: Mapping[str, str]) -> bool:

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from caisson import density_law
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import CAM_CLAY, NGI_ADP
+from caisson.suggest.soil import CAM_CLAY, LEAST_DRAINED, NGI_ADP
 
-LEAST_DRAINED = 10.0  # degrees
 FRICTION, ADHESION = "Friction angle of the walls", "Adhesion factor of the walls"
 ADHESION_OF_CLAY = Entry(
     ADHESION,
