@@ -31,6 +31,7 @@ from lab import machine, outcome
 NUMBER, QUICK, SEED = 80, 6, 63
 SHARE = 0.1  # of the skirt, to which a run goes
 SLOWEST = 3.0  # times the estimate
+OF_THE_END = "at the end of the way"  # which is not that of the scene
 OWN_CHOICE = re.compile("energy|transfer|falls|limiter|inertia", re.I)
 SOILS = (
     "sand by angle",
@@ -236,7 +237,8 @@ def look_at(case: Case, run: Run, is_timed: bool) -> None:
         return
     case.steps = f"{summary['steps']}"
     for warning in summary.get("warnings", []):
-        kind = case.faults if OWN_CHOICE.search(warning) else case.notes
+        is_own = OWN_CHOICE.search(warning) and OF_THE_END not in warning
+        kind = case.faults if is_own else case.notes
         kind.append(warning)
 
 

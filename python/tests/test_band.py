@@ -79,6 +79,10 @@ class Estimates(unittest.TestCase):
         cases: list[tuple[str, dict[str, object]]] = [
             ("no layer begins there; the tops are 0, 2 m", {"low": ["1: Dr = 50%"]}),
             ("names the top 0 m twice", {"high": ["0: Dr = 70%", "0: phi = 3"]}),
+            ("from 0 m has more .*; exchange", {"low": ["0: Dr = 70%"]}),
+            ("from 0 m has less .*; exchange", {"high": ["0: loose"]}),
+            ("from 2 m has less .*; exchange", {"high": ["2: su = (3 + 2*d) kPa"]}),
+            ("from 2 m has more .*; exchange", {"low": ["2: E = 400 su"]}),
             ("no layer gives phi", {"spread": "phi 5%"}),
             ("of a larger one give --low and --high", {"spread": "su 60%"}),
             ("each once", {"spread": "su"}),

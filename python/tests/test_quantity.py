@@ -391,6 +391,25 @@ class Layers(unittest.TestCase):
                 self.layer(f"0: {text}").value("Youngs modulus"), "300*(20000)"
             )
 
+    def test_values_that_no_soil_has(self) -> None:
+        """Their unit is missing, or another one: what may be meant is said."""
+        for text, said in (
+            ("phi = 33, E = 20", "did you mean 20 MPa"),
+            ("phi = 33, E = 30000", "did you mean 30000 kPa"),
+            ("su = 60 kPa, E = 30", "did you mean 30 MPa"),
+            ("su = 60 Pa, E = 200", "Youngs modulus = 200 Pa is outside"),
+            ("su = 20 Pa", "did you mean 20 kPa"),
+            ("phi = 33, E = 20 MPa, c = 5", "did you mean 5 kPa"),
+            ("phi = 33, E = 20 MPa, n = 40", "did you mean 40%"),
+            ("phi = 33, E = 20 MPa, k = 1e3", "Permeability = 1000 m/s is outside"),
+            ("phi = 33, E = 20 MPa, OCR = 0.5", "is outside 1 to 200"),
+            ("phi = 33, E = 20 MPa, Solid density = 2.65", "is outside 1500 to 6000"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(SuggestError, said):
+                self.layer(f"0: {text}")
+        for text in ("su = 0.1 kPa", "phi = 33, E = (1 + 2*d) MPa, c = 100"):
+            self.layer(f"0: {text}")
+
     def states(self, end: float, floor: float, *texts: str) -> list[tuple[float, str]]:
         """Return unit weight in water (kN/m3) and K0 of each layer."""
         layers = [self.layer(text) for text in texts]
@@ -418,6 +437,13 @@ class Layers(unittest.TestCase):
         self.assertEqual(
             self.states(8, 20, *layers)[1][1], "max(0.59, 1 - 1.9*(3000)/s)"
         )
+        # weak in the middle of the layer alone
+        ((_, k0),) = self.states(5, 8, "0: su = (0.3 + 2*abs(d - 6)) kPa")
+        self.assertRegex(k0, r"^m(ax|in)\(.*, 1 [-+] 1.9\*\(.*\)/s\)$")
+        # held for the weakest clay of a study, too
+        (layer,) = clay.with_states([self.layer("0: su = 0.22*s")], 5, 8, 0.7)
+        expected = "max(0.59, 1 - 1.9*(0.7*(0.22*s))/s)"
+        self.assertEqual(layer.value("K0"), expected)
         ((weight, k0),) = self.states(5, 8, "0: su = 20 kPa, n = 0.5, K0 = 0.8")
         self.assertEqual((round(weight, 2), k0), (8.09, "0.8"))
 

@@ -520,6 +520,13 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     layers = layers[:n_layers]
     if found:
         found = replace(found, layers=found.layers[:n_layers])
+    if options.weight:
+        ends_of_run = begin_of(options), end_of(options)
+        states = clay.with_states(layers, ends_of_run[1], ends_of_run[1])
+        for words in walls.words_on_weight(
+            body_of(options), states, ends_of_run, options.weight
+        ):
+            print(f"warning: {words}")
     texts = {options.file: scene_of(options, layers, options.file)}
     ends = ends_of(options, layers, known, found) if estimates else {}
     for estimate, soil in ends.items():
