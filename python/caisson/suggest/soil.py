@@ -338,7 +338,7 @@ def refuse_implausible(given: Mapping[str, str], known: Mapping[str, str]) -> No
     is given of a layer, in the units of the entries. Raises SuggestError."""
     for name, text in given.items():
         found = values_at_depths(text) if name in PLAUSIBLE else []
-        if not found or name == "Cohesion" and max(found) == 0:
+        if not found or name == "Cohesion" and max(found) <= 0:
             continue
         least, most = PLAUSIBLE[name]
         if name == "Youngs modulus":
