@@ -122,7 +122,13 @@ namespace CaissonMPM
       {
         if (face == 3 ? !mudline.is_top(cell) : !grid->at_side(cell, face))
           continue;
-        const double free_share = free_nodes_of(cell, face, held);
+        double free_share = free_nodes_of(cell, face, held);
+        // A surface within the cell moves with the nodes below it, too, where
+        // the upper ones are at the top of the mesh, and held.
+        if (face == 3)
+          free_share =
+            std::max(free_share,
+                     (1. - filled[cell]) * free_nodes_of(cell, 2, held));
         if (is_open[face] || free_share > 0.)
           add_face(face == 2            ? Beyond::bottom :
                    face == 3 && in_plug ? Beyond::plug :

@@ -112,6 +112,23 @@ class Column(ProgramTest):
         }
         self.run_column("consolidation", entries)
 
+    def test_closed_surface_that_rises(self) -> None:
+        """Water that enters from below lifts the surface into the highest row of the
+        mesh, whose upper nodes are held: it moves freely all the same, by the share of
+        p H / M that is consolidated."""
+        entries: Entries = {
+            **COARSE,
+            "Boundary conditions/Top": "roller",
+            "Loads/Surrounding pressure": 0,
+            "Water/Drained surface": "false",
+            "Water/Drained bottom": "true",
+            "Water/Bottom pressure": 1e4,
+            "Verification/Checks": "",
+        }
+        path = self.run_column("consolidation", entries)
+        rise = history(path, "observations")[-1]["top"]
+        self.assertAlmostEqual(rise / (0.35682 * 1e4 / 6.7308e6), 1, delta=0.05)
+
     def test_cam_clay(self) -> None:
         """Normally consolidated clay under its K0 stress takes a load while its water
         leaves: e falls by lambda ln(180.767 / 120.767), far below the surface row,
