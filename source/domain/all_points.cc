@@ -10,9 +10,11 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  AllPoints::AllPoints(const MaterialPoints &points,
-                       const MPI_Comm        communicator)
+  AllPoints::AllPoints(const MaterialPoints    &points,
+                       const std::vector<bool> &total,
+                       const MPI_Comm           communicator)
     : points(points)
+    , total(total)
     , on_one_rank(Utilities::MPI::n_mpi_processes(communicator) == 1)
   {
     if (on_one_rank)

@@ -20,23 +20,28 @@ namespace CaissonMPM
     enum SumOfWall : unsigned int
     {
       area,
-      friction, // times area
-      adhesion, // times area
-      wet_area, // of cells with points
-      pressure, // times wet area
+      friction,  // times area
+      adhesion,  // times area
+      wet_area,  // of cells with points
+      pressure,  // times wet area
+      in_stress, // the same, of soil whose total stress is shown
       n_sums_of_wall
     };
 
-    /** The mean pore pressure of the points in a cell, or nan. */
-    double
-    mean_pore_pressure(const MaterialPoints &points, const unsigned int cell)
+    /** The mean pore pressure of the points in a cell, in the soil with and
+     * without the materials of @p total, or nan. */
+    std::array<double, 2>
+    mean_pore_pressures(const MaterialPoints    &points,
+                        const std::vector<bool> &total,
+                        const unsigned int       cell)
     {
-      double volume = 0., sum = 0.;
+      double                volume = 0.;
+      std::array<double, 2> sums   = {};
       points.for_each_in(cell, [&](const MaterialPoint &p) {
         volume += p.volume;
-        sum += p.volume * p.pore_pressure;
+        sums[total[p.material]] += p.volume * p.pore_pressure;
       });
-      return sum / volume;
+      return {sums[0] / volume, sums[1] / volume};
     }
   } // namespace
 
@@ -106,9 +111,10 @@ namespace CaissonMPM
   }
 
   std::vector<WallRow>
-  WallForces::rows(const BackgroundGrid &grid,
-                   const Contact        &contact,
-                   const MaterialPoints &points) const
+  WallForces::rows(const BackgroundGrid    &grid,
+                   const Contact           &contact,
+                   const MaterialPoints    &points,
+                   const std::vector<bool> &total) const
   {
     // 1. sums over the ends of the faces, of all ranks
     std::vector<double> sums(heights.size() * 2 * n_sums_of_wall, 0.);
@@ -130,11 +136,12 @@ namespace CaissonMPM
         }
       if (!grid.is_owned(face.soil_cell))
         return;
-      const double p = mean_pore_pressure(points, face.soil_cell);
-      if (std::isnan(p))
+      const auto p = mean_pore_pressures(points, total, face.soil_cell);
+      if (std::isnan(p[0]))
         return;
       sum[wet_area] += share;
-      sum[pressure] += share * p;
+      sum[pressure] += share * p[0];
+      sum[in_stress] += share * p[1];
     });
     Utilities::MPI::sum(sums, grid.communicator(), sums);
     // 2. means
@@ -149,7 +156,10 @@ namespace CaissonMPM
                                        impulses[row][wall],
                                        sum[friction] / sum[area],
                                        sum[adhesion] / sum[area],
-                                       sum[pressure] / sum[wet_area]};
+                                       sum[pressure] / sum[wet_area],
+                                       sum[wet_area] > 0. ?
+                                         sum[in_stress] / sum[wet_area] :
+                                         0.};
           }
       }
     return result;

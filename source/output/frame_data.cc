@@ -94,9 +94,20 @@ namespace CaissonMPM
       std::vector<std::pair<unsigned int, Quantity>> parts        = {};
     };
 
+    /** The same of the point as files show it, with its pore pressure as a part
+     * of its stress in materials of @p total. [n_materials] */
+    Quantity
+    as_shown(const Quantity &quantity, const std::vector<bool> &total)
+    {
+      return [=](const MaterialPoint &p) {
+        return quantity(total[p.material] ? p.with_pressure_in_stress() : p);
+      };
+    }
+
     /** The quantities of points that @p is_written chooses. */
     std::vector<FrameField>
-    fields_of(const std::function<bool(const PointField &)> &is_written)
+    fields_of(const std::vector<bool>                       &total,
+              const std::function<bool(const PointField &)> &is_written)
     {
       std::vector<FrameField> fields;
       for (const NamedQuantity &quantity : all_point_quantities())
@@ -110,16 +121,18 @@ namespace CaissonMPM
                       about.unit);
           if (fields.empty() || fields.back().name != name)
             fields.push_back({name, slot.n_components});
-          fields.back().parts.emplace_back(slot.place, quantity.value);
+          fields.back().parts.emplace_back(slot.place,
+                                           as_shown(quantity.value, total));
         }
       return fields;
     }
 
     /** The vertical effective stress, positive in compression, in kPa. */
-    double
-    vertical_stress(const MaterialPoint &p)
+    Quantity
+    vertical_stress(const std::vector<bool> &total)
     {
-      return -p.stress[zz] / 1000.;
+      return as_shown(
+        [](const MaterialPoint &p) { return -p.stress[zz] / 1000.; }, total);
     }
 
     /** The same before anything happens, at the present place of the point;
@@ -169,24 +182,24 @@ namespace CaissonMPM
 
     /** The values of a point that are written, but for its number. */
     std::vector<FrameField>
-    fields_of_points(const Soil  &soil,
-                     const double circumference,
-                     const bool   with_pore_pressure)
+    fields_of_points(const Soil              &soil,
+                     const double             circumference,
+                     const std::vector<bool> &total,
+                     const bool               with_pore_pressure)
     {
-      auto           fields  = fields_of([&](const PointField &field) {
+      auto           fields  = fields_of(total, [&](const PointField &field) {
         return field.in_frames == InFrames::drawn ||
                (with_pore_pressure && is_pore_pressure(field));
       });
-      const Quantity at_rest = vertical_stress_at_rest(soil);
+      const Quantity at_rest = vertical_stress_at_rest(soil),
+                     now     = vertical_stress(total);
       const std::pair<std::string, Quantity> more[] = {
         {"void_ratio", void_ratio(soil)},
         {"whole_volume_m3",
          [=](const MaterialPoint &p) { return circumference * p.volume; }},
-        {name_of_vertical_stress, vertical_stress},
+        {name_of_vertical_stress, now},
         {name_of_ratio,
-         [=](const MaterialPoint &p) {
-           return vertical_stress(p) / at_rest(p);
-         }},
+         [=](const MaterialPoint &p) { return now(p) / at_rest(p); }},
         {"layer", layer(soil)}};
       for (const auto &[name, value] : more)
         fields.push_back({name, 1, {{0, value}}});
@@ -245,7 +258,7 @@ namespace CaissonMPM
                        const unsigned long long end) const
   {
     const auto fields =
-      fields_of_points(soil, grid.circumference(), with_pore_pressure);
+      fields_of_points(soil, grid.circumference(), total, with_pore_pressure);
     VtuPiece piece;
     for (const FrameField &field : fields)
       piece.of_points.push_back({field.name, field.n_components, {}});
@@ -307,12 +320,13 @@ namespace CaissonMPM
     add_array("material_points", 1);
     fill([&](const unsigned int cell) { return n_points[cell]; });
 
-    auto fields = fields_of([&](const PointField &field) {
+    auto           fields   = fields_of(total, [&](const PointField &field) {
       return std::string(field.owner) == "stress" ||
              (with_pore_pressure && is_pore_pressure(field));
     });
+    const Quantity vertical = vertical_stress(total);
     fields.push_back({"void_ratio", 1, {{0, void_ratio(soil)}}});
-    fields.push_back({name_of_vertical_stress, 1, {{0, vertical_stress}}});
+    fields.push_back({name_of_vertical_stress, 1, {{0, vertical}}});
     for (const FrameField &field : fields)
       {
         add_array(field.name, field.n_components);
@@ -320,7 +334,7 @@ namespace CaissonMPM
           fill(means(value), place);
       }
     add_array(name_of_ratio, 1);
-    const auto now     = means(vertical_stress),
+    const auto now     = means(vertical),
                at_rest = means(vertical_stress_at_rest(soil));
     fill([&](const unsigned int cell) { return now(cell) / at_rest(cell); });
     add_array("layer", 1);

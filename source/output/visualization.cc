@@ -101,14 +101,14 @@ namespace CaissonMPM
                              const MaterialPoints &points,
                              const RigidBody      &body,
                              const Soil           &soil,
-                             const bool            with_pore_pressure,
+                             const PoreWater      &water,
                              const double          time)
   {
     // after a restart the frame of this time may be there already
     drop_frames_from(time);
     const unsigned int number       = next_number();
     const MPI_Comm     communicator = grid.communicator();
-    const FrameData    data(grid, points, soil, with_pore_pressure);
+    const FrameData    data(grid, points, soil, water);
     const double       penetration =
       body.shape().exists() ? body.penetration() : no_penetration;
     std::array<Frame, 3> frames;

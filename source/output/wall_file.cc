@@ -50,9 +50,11 @@ namespace CaissonMPM
     {
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       const double     scale   = 1. / (wall.area * interval),
-                   normal      = sign * wall.impulse[radial] * scale,
+                   contact     = sign * wall.impulse[radial] * scale,
+                   normal      = contact + wall.pressure_in_stress,
                    shear       = wall.impulse[vertical] * scale,
-                   limit = wall.friction * std::max(normal, 0.) + wall.adhesion;
+                   limit =
+                     wall.friction * std::max(contact, 0.) + wall.adhesion;
       return {wall.area,
               normal,
               shear,

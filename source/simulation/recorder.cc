@@ -190,7 +190,7 @@ namespace CaissonMPM
         WallFile::Scene{parts.soil,
                         parts.body.shape().right(),
                         parts.body.shape().left() > 0.,
-                        parts.water->traits().has_excess_pressure});
+                        parts.water->shows_pressure()});
   }
 
   void
@@ -385,7 +385,9 @@ namespace CaissonMPM
     if (verification.empty())
       return true;
     const MPI_Comm  communicator = parts.grid.communicator();
-    const AllPoints all_points(parts.points, communicator);
+    const AllPoints all_points(parts.points,
+                               parts.water->pressure_in_stress(),
+                               communicator);
     const bool      passed =
       !parts.grid.is_first_rank() || verification.run(all_points,
                                                       *records,

@@ -102,7 +102,10 @@ namespace CaissonMPM
           parts.body.motion().travel(),
           interval,
           impulse_on_body[tip][vertical] / (interval * tip_area),
-          walls.rows(parts.grid, parts.contact, parts.points)};
+          walls.rows(parts.grid,
+                     parts.contact,
+                     parts.points,
+                     parts.water->pressure_in_stress())};
         if (parts.grid.is_first_rank())
           wall_file->append(record);
         wants_walls = false;
@@ -191,7 +194,9 @@ namespace CaissonMPM
   {
     if (observations.names().empty())
       return {};
-    const AllPoints all_points(parts.points, parts.grid.communicator());
+    const AllPoints all_points(parts.points,
+                               parts.water->pressure_in_stress(),
+                               parts.grid.communicator());
     return parts.grid.is_first_rank() ?
              observations.values(all_points, parts.clock.time) :
              std::vector<double>();
@@ -301,7 +306,7 @@ namespace CaissonMPM
                                parts.points,
                                parts.body,
                                parts.soil,
-                               parts.water->traits().has_excess_pressure,
+                               *parts.water,
                                parts.clock.time);
     last_frame = parts.clock.time;
     store_file_hashes();

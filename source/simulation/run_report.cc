@@ -202,14 +202,15 @@ namespace CaissonMPM
     Json
     about_material(const Soil        &soil,
                    const unsigned int i,
-                   const bool         uses_permeability)
+                   const PoreWater   &water)
     {
       const SoilMaterial &m       = soil.material(i);
       Json                members = {{"layer", m.layer + 1},
                                      {"top_depth_m", m.top_depth},
                                      {"law", m.law_name()},
                                      {"submerged_unit_weight_N_m3", soil.unit_weight(m)},
-                                     {"K0", m.earth_pressure_at_rest}};
+                                     {"K0", m.earth_pressure_at_rest},
+                                     {"total_stress", water.shows_total_stress(m)}};
       const std::pair<const char *, std::optional<double>> values[] = {
         {"friction_angle_deg", m.friction_angle()},
         {"cohesion_Pa", m.shear_strength()},
@@ -229,7 +230,7 @@ namespace CaissonMPM
                {{"library_checksum", m.umat->checksum()},
                 {"p_wave_modulus_Pa", m.umat_stiffness.p_wave_modulus},
                 {"poisson_ratio", m.umat_stiffness.poisson}});
-      if (uses_permeability)
+      if (water.traits().uses_permeability)
         append(members,
                {{"permeability_m_s", m.permeability},
                 {"permeability_ratio", m.anisotropy}});
@@ -253,8 +254,7 @@ namespace CaissonMPM
               {"outer_wall_adhesion_Pa", adhesion[outer_wall]}});
       Json layers = Json::array();
       for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
-        layers.push_back(about_material(
-          parts.soil, i, parts.water->traits().uses_permeability));
+        layers.push_back(about_material(parts.soil, i, *parts.water));
       append(members,
              {{"layers", layers},
               {"frame_penetrations_m",

@@ -6,6 +6,7 @@
 #include <caisson_mpm/water/steady_seepage.h>
 
 #include <cmath>
+#include <utility>
 
 namespace CaissonMPM
 {
@@ -72,6 +73,7 @@ namespace CaissonMPM
     , extremes(scene)
   {
     traits_.follows_soil = true;
+    traits_.follows_clay = true;
     traits_.least_points = 4;
     projection.register_totals(scene.totals);
     scene.totals.keep("water_unbalanced", unbalanced);
@@ -171,6 +173,9 @@ namespace CaissonMPM
         }
     p.update_ghost_values();
     projection.begin_with({-suction(), 0.});
+    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+      if (suction() > 0. && scene.soil.material(i).has_undrained_strength())
+        begins_with_field = true;
   }
 
   // ------------------------------------------------------------ a step
@@ -295,6 +300,12 @@ namespace CaissonMPM
       warn_of_open_lid(suction(),
                        "Set Water/Suction control = sealed for a sealed one",
                        warnings);
+    if (std::exchange(begins_with_field, false))
+      warnings.push_back(
+        "the excess pressure in clay begins with the field that carried the "
+        "suction of the installation, which is no pore pressure: forces are "
+        "right while the clay is undrained. Where it drains, run the "
+        "installation with Water/Level = coupled, too");
     extremes.warn(time, place_in_words(), warnings);
     const auto of_plug = FlowingWater::take_warnings();
     warnings.insert(warnings.end(), of_plug.begin(), of_plug.end());

@@ -48,6 +48,24 @@ namespace CaissonMPM
                            scene.body.motion().name());
   }
 
+  std::vector<bool>
+  PoreWater::pressure_in_stress() const
+  {
+    std::vector<bool> result;
+    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+      result.push_back(traits_.has_excess_pressure &&
+                       shows_total_stress(scene.soil.material(i)));
+    return result;
+  }
+
+  bool
+  PoreWater::shows_pressure() const
+  {
+    const auto in_stress = pressure_in_stress();
+    return traits_.has_excess_pressure &&
+           std::count(in_stress.begin(), in_stress.end(), false) > 0;
+  }
+
   std::vector<std::string>
   PoreWater::column_names() const
   {

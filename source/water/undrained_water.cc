@@ -22,6 +22,7 @@ namespace CaissonMPM
     , extremes(scene)
   {
     traits_.has_excess_pressure = true;
+    traits_.follows_clay        = true;
     traits_.resists_body        = true;
     traits_.bulk_modulus        = scene.settings.undrained.bulk_modulus;
     if (scene.asks_for_suction())

@@ -19,8 +19,11 @@ namespace CaissonMPM
   class AllPoints
   {
   public:
-    /** Collective. */
-    AllPoints(const MaterialPoints &points, const MPI_Comm communicator);
+    /** Collective. Points of materials that @p total names have their pore
+     * pressure as a part of their stress. [n_materials] */
+    AllPoints(const MaterialPoints    &points,
+              const std::vector<bool> &total,
+              const MPI_Comm           communicator);
 
     /** Call action(const MaterialPoint &) for every point. */
     template <typename Action>
@@ -29,13 +32,24 @@ namespace CaissonMPM
     {
       if (on_one_rank)
         points.for_each(
-          [&](const MaterialPoint &p, const unsigned int) { action(p); });
+          [&](const MaterialPoint &p, const unsigned int) { show(p, action); });
       for (const MaterialPoint &p : gathered)
-        action(p);
+        show(p, action);
     }
 
   private:
+    template <typename Action>
+    void
+    show(const MaterialPoint &p, const Action &action) const
+    {
+      if (total[p.material])
+        action(p.with_pressure_in_stress());
+      else
+        action(p);
+    }
+
     const MaterialPoints      &points;
+    const std::vector<bool>    total; // [n_materials]
     const bool                 on_one_rank;
     std::vector<MaterialPoint> gathered; // in the order of their numbers
   };

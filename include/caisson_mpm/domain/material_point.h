@@ -44,6 +44,17 @@ namespace CaissonMPM
     {
       return (1. + initial_void_ratio) * volume / initial_volume - 1.;
     }
+
+    /** Return the point with its pore pressure as a part of its stress. */
+    MaterialPoint
+    with_pressure_in_stress() const
+    {
+      MaterialPoint result = *this;
+      for (const unsigned int component : {rr, zz, tt})
+        result.stress[component] -= pore_pressure;
+      result.pore_pressure = 0.;
+      return result;
+    }
   };
 
 #undef CAISSON_NO_MEMBER

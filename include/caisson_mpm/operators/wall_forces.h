@@ -21,6 +21,7 @@ namespace CaissonMPM
     double  friction = 0.; // mean tangent of the friction angle
     double  adhesion = 0.; // mean, Pa
     double  pore_pressure; // excess in the cells at the wall, Pa; nan: none
+    double  pressure_in_stress; // of soil whose total stress is shown, Pa
   };
 
   /** Both walls at one height. */
@@ -59,11 +60,13 @@ namespace CaissonMPM
 
     /** Return the rows with the impulses, which the first rank has of all ranks
      * after RunTotals::bring_to_first_rank(), and with what the walls are like
-     * now. Collective. */
+     * now. @p total names the materials whose total stress is shown.
+     * [n_materials] Collective. */
     std::vector<WallRow>
-    rows(const BackgroundGrid &grid,
-         const Contact        &contact,
-         const MaterialPoints &points) const;
+    rows(const BackgroundGrid    &grid,
+         const Contact           &contact,
+         const MaterialPoints    &points,
+         const std::vector<bool> &total) const;
 
     /** Return the area of the tip, seen from below. Units: m2. Collective. */
     static double

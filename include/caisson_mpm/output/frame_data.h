@@ -6,6 +6,9 @@
 // drawn: SI units, stresses effective and positive in tension,
 //   mean_stress = (rr + zz + tt) / 3,
 //   deviator    = sqrt(3 J2),  J2 = s:s / 2.
+// Where PoreWater::shows_total_stress(), a stress is the total one less the
+// hydrostatic pressure, and the pore pressure is 0: stress less pore pressure
+// is the same everywhere.
 // The void ratio follows from the initial porosity n of the point's layer and
 // its change of volume J: e = (1 + e0) J - 1 with e0 = n / (1 - n).
 // yield_stress is p_c of modified Cam clay or p_i of NorSand, and statev_1 and
@@ -30,8 +33,10 @@
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/output/vtu_file.h>
+#include <caisson_mpm/water/pore_water.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -43,11 +48,12 @@ namespace CaissonMPM
     FrameData(const BackgroundGrid &grid,
               const MaterialPoints &points,
               const Soil           &soil,
-              const bool            with_pore_pressure)
+              const PoreWater      &water)
       : grid(grid)
       , points(points)
       , soil(soil)
-      , with_pore_pressure(with_pore_pressure)
+      , total(water.pressure_in_stress())
+      , with_pore_pressure(water.shows_pressure())
     {}
 
     /** Return the material points of this rank from number begin to end. */
@@ -74,7 +80,9 @@ namespace CaissonMPM
     const BackgroundGrid &grid;
     const MaterialPoints &points;
     const Soil           &soil;
-    const bool            with_pore_pressure;
+    // of which materials the total stress is shown [n_materials]
+    const std::vector<bool> total;
+    const bool              with_pore_pressure;
   };
 } // namespace CaissonMPM
 

@@ -50,7 +50,7 @@ namespace CaissonMPM
                 const MaterialPoints &points,
                 const RigidBody      &body,
                 const Soil           &soil,
-                const bool            with_pore_pressure,
+                const PoreWater      &water,
                 const double          time);
 
   private:

@@ -92,6 +92,8 @@ namespace CaissonMPM
     PressureProjection projection;
     PressureExtremes   extremes; // of the last record
     double             step = 0.;
+    // with the field that carries suction in clay by total stress
+    bool begins_with_field = false;
     // of the equations at unknown nodes, and the flow, all steps; m3
     double unbalanced = 0., through_surfaces = 0.;
   };

@@ -58,6 +58,7 @@ namespace CaissonMPM
   struct WaterTraits
   {
     bool has_excess_pressure = false;
+    bool follows_clay        = false; // its pressure in undrained clay is known
     bool uses_permeability   = false;
     bool follows_soil        = false; // the pressure follows from its motion
     bool resists_body        = false; // so that resistance_to_body() counts
@@ -177,6 +178,26 @@ namespace CaissonMPM
     }
 
     // ---------------------------------------------------------- records
+
+    /**
+     * Return whether files show the total stress of a material, less the
+     * hydrostatic pressure: of clay with an undrained strength, whose law needs
+     * no effective stress, unless the model computes the pressure in it.
+     */
+    bool
+    shows_total_stress(const SoilMaterial &material) const
+    {
+      return material.has_undrained_strength() && !traits_.follows_clay;
+    }
+
+    /** Return of which materials files show the pressure of the points as a
+     * part of their stress. [n_materials] */
+    std::vector<bool>
+    pressure_in_stress() const;
+
+    /** Return whether files show an excess pressure. */
+    bool
+    shows_pressure() const;
 
     /** Give the points the pressure at their places. */
     virtual void

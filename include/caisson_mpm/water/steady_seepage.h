@@ -10,9 +10,10 @@
 // stress, and whose volume does not change, feels only the body force. So the
 // field may be chosen: it is -s in the plug, down to the tip, and harmonic
 // below, as if water seeped through soil that is far more permeable in the
-// plug. The pressure of the water in the pores of clay falls in much the same
-// way. Therefore the plug keeps its contact with the wall, and bears no
-// tension, although the suction takes its total stress.
+// plug. With this choice the plug keeps its contact with the wall, and bears no
+// tension beyond p, although the suction takes its total stress. The field is
+// no pore pressure: files have it in the stress, which is then the total one
+// less the hydrostatic pressure.
 //
 // In layers of sand and clay the same is done for clay as long as the tip is in
 // clay: the flow in the sand does not depend on the field in the clay.
