@@ -31,8 +31,10 @@ class Frame:
 
     A file is read when one of its values is asked for, and once. Coordinates are
     r, z and 0 (m), z upward from the surface of the ground at the start. Stresses are
-    effective and positive in tension, pore pressures excess and positive in
-    compression. Names of fields carry their units: "stress_zz_Pa".
+    positive in tension. They are effective, but total less the hydrostatic pressure in
+    layers with "total_stress" in run.json, which are undrained clay. Pore pressures are
+    excess and positive in compression, 0 in these layers, and missing where none is
+    computed. Names of fields carry their units: "stress_zz_Pa".
 
     time: of the scene (s); penetration: of the body at that time (m), as history.csv
     has it; index: the number of the frame, from 0 on.

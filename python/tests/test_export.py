@@ -23,6 +23,7 @@ import numpy as np
 from made_up_state import (
     FORCES,
     K0,
+    WEDGE,
     WEIGHT,
     Temporary,
     on_mesh,
@@ -222,6 +223,20 @@ class Balance(Temporary):
         state.surcharge, state.stress[:] = 0, made_up().stress
         state.forces = {"lid_force_N": 1e5}
         self.assertAlmostEqual(on_mesh(state).applied[:, 1].sum() / -1e5, 1, delta=0.1)
+
+    def test_suction_on_clay(self) -> None:
+        """It pulls at the surface of a plug whose total stress is known, and the files
+        say which layers these are."""
+        state = made_up()
+        state.suction = 5e4
+        sand = on_mesh(state)
+        self.assertNotIn("undrained clay", "\n".join(about(sand)))
+        state.layers[0].total = True
+        clay = on_mesh(state)
+        pull = (clay.applied - sand.applied)[:, 1].sum()
+        self.assertAlmostEqual(pull / (5e4 * np.pi * WEDGE.inner**2), 1, delta=0.1)
+        np.testing.assert_array_equal(clay.total, clay.values.stress)
+        self.assertIn("Layer 1: undrained clay by total stress", "\n".join(about(clay)))
 
     @unittest.skipUnless(CCX, "needs ccx of the package calculix-ccx")
     def test_calculix(self) -> None:

@@ -1,21 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Flow lines of fields with known ones, and pore_pressure.png."""
+import json
 import shutil
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 import numpy as np
 
 from caisson import plot
+from caisson.plot import fields
 from caisson.plot.cells import CellMeans
 from caisson.plot.flow import Flow
 from caisson.plot.pore_pressure import style_of
+from caisson.results import Results
 
 TINY = Path(__file__).resolve().parent / "tiny_run"
 SIZE, RADIUS, DEPTH = 0.125, 4.0, 3.0  # m
 N, LEVEL = 8, -1.0
+UNDRAINED, SEEPAGE = {"Water/Level": "undrained"}, {"Water/Level": "seepage"}
 
 
 def soil(points: int = 2, plane: bool = False) -> CellMeans:
@@ -101,6 +107,16 @@ class Lines(unittest.TestCase):
             np.testing.assert_allclose(psi[well], (i + 0.5) / N * total, rtol=0.02)
             self.assertLess(np.ptp(psi[well]), 0.02 * total)
 
+    def test_lines_end_where_no_pressure_is_known(self) -> None:
+        """In clay by total stress there is none, above z = -2 here."""
+        means = soil()
+        z = means.position[:, 1]
+        flow = Flow(means, np.where(z < -2, -2.0 * z, np.nan))
+        lines = flow.lines(flow.starts(N, -2.5, RADIUS))
+        self.assertEqual(len(lines), N)
+        self.assertLess(max(line[:, 1].max() for line in lines), -2 + SIZE / 100)
+        self.assertEqual(len(flow.starts(N, LEVEL, RADIUS)), 0)
+
     def test_no_flow_has_no_lines(self) -> None:
         means = soil()
         flow = Flow(means, np.zeros(len(means.position)))
@@ -166,8 +182,31 @@ class Picture(unittest.TestCase):
             plot.draw(path)
             self.assertEqual(draw_flow.call_count, 0)
             table.write_text(flowing, encoding="utf-8")
+            self.change(path, lambda known: known["entries"].update(UNDRAINED))
+            plot.draw(path)
+            self.assertEqual(draw_flow.call_count, 0, "suction on undrained water")
+            self.change(path, lambda known: known["entries"].update(SEEPAGE))
             plot.draw(path)
             self.assertGreater(draw_flow.call_count, 0)
+
+    def change(self, path: Path, how: Callable[[dict[str, Any]], None]) -> None:
+        """Change what run.json of a run knows."""
+        file = path / "run.json"
+        known = json.loads(file.read_text(encoding="utf-8"))
+        how(known)
+        file.write_text(json.dumps(known), encoding="utf-8")
+
+    def test_total_stress_has_no_picture(self) -> None:
+        """Nor has it a pressure, whatever the frames of an earlier version say."""
+        path = self.run_with_pressure()
+        self.change(
+            path, lambda known: known["scene"]["layers"][0].update(total_stress=True)
+        )
+        with mock.patch("builtins.print"):
+            pictures = plot.draw(path)
+        self.assertNotIn("pore_pressure.png", [picture.name for picture in pictures])
+        scene = Results(path).scene
+        self.assertIn("total stress", fields.stress_in_words(scene, "vertical"))
 
 
 if __name__ == "__main__":

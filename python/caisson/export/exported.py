@@ -51,12 +51,13 @@ class Exported:
 
     @property
     def total(self) -> np.ndarray:
-        """The stress less the excess pore pressure, which balances buoyant weight."""
+        """The stress less the excess pore pressure where that is known. It is the total
+        stress less the hydrostatic pressure, which balances buoyant weight."""
         return total_of(self.values)
 
 
 def total_of(values: Values) -> np.ndarray:
-    """Return effective stress less the pressure: [m, 4]."""
+    """Return the stress less the pressure: [m, 4]."""
     return values.stress - values.pressure[:, np.newaxis] * [1, 1, 1, 0]
 
 
@@ -88,17 +89,22 @@ def inward(mesh: Mesh, edges: np.ndarray) -> np.ndarray:
 
 
 def on_surface(state: State, mesh: Mesh) -> np.ndarray:
-    """Return the forces of water, surcharge and lid on the surface: [n, 2] (N)."""
+    """Return the forces of water, surcharge and lid on the surface: [n, 2] (N). The
+    suction acts on the total stress of clay, whose pore pressure is not known."""
     on = np.zeros(len(mesh.nodes), dtype=bool)
     on[mesh.sets.get("SURFACE", [])] = True
     edges = mesh.edges()
     edges = edges[on[edges].all(axis=1)]
     middle = mesh.nodes[edges].mean(axis=1)
     pressure = np.full(len(edges), float(state.surcharge))
-    if state.pressure is not None and len(edges):
-        pressure += interpolate(state, middle).pressure
     if state.wall is not None:
         pressure[middle[:, 0] < state.wall.inner] += state.lid_pressure
+    if len(edges):
+        at = interpolate(state, middle)
+        total = np.array([layer.total for layer in state.layers])[at.layer]
+        if state.wall is not None:
+            total &= middle[:, 0] < state.wall.inner
+        pressure += np.where(total, -state.suction, at.pressure)
     return at_ends(mesh, edges, pressure[:, np.newaxis] * inward(mesh, edges))
 
 

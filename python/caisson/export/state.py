@@ -83,25 +83,29 @@ class Wall:
 class Layer:
     """A layer of soil: its number in the scene, its submerged unit weight (N/m3) and
     Young's modulus (Pa), means over its points, and the depth of its top (m).
-    assumed: its law has no Young's modulus, so that this one follows its stress."""
+    assumed: its law has no Young's modulus, so that this one follows its stress.
+    total: its stress is the total one less the hydrostatic pressure, and its pore
+    pressure is not known."""
 
     number: int
     unit_weight: float
     youngs_modulus: float
     top: float = 0.0
     assumed: bool = False
+    total: bool = False
 
 
 @dataclass
 class State:
     """The points of a frame, and what acts on them.
 
-    position [n, 2] (m), stress [n, 4] (Pa, effective, tension positive), volume [n]
-    (m3, whole circumference), pressure [n] (Pa, excess, compression positive; None
-    where there is no pore water), fields: other values [n] by name, displacement
-    [n, 2] (m), layer [n]: index in layers, unit_weight [n] (N/m3).
+    position [n, 2] (m), stress [n, 4] (Pa, effective, or total in layers that say so,
+    tension positive), volume [n] (m3, whole circumference), pressure [n] (Pa, excess,
+    compression positive; None where none is computed), fields: other values [n] by
+    name, displacement [n, 2] (m), layer [n]: index in layers, unit_weight [n] (N/m3).
     forces: of the soil on the body at that time (N, upward), by their columns in
     history.csv; empty where the run has none yet. surcharge: on the surface (Pa).
+    suction: beneath the lid (Pa).
     outer_radius, bottom: of the domain of the run (m).
     """
 
@@ -122,6 +126,7 @@ class State:
     outer_radius: float
     bottom: float
     surcharge: float = 0.0
+    suction: float = 0.0
 
     @property
     def lid_pressure(self) -> float:
@@ -205,6 +210,7 @@ def layers_of(
             float(np.average(modulus[index == i], weights=volume[index == i])),
             min(one["top_depth_m"] for one in known if one["layer"] == number),
             bool(assumed[index == i].any()),
+            any(one.get("total_stress") for one in known if one["layer"] == number),
         )
         for i, number in enumerate(which)
     ]
@@ -242,6 +248,8 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         share = np.array(list(shares))[data["material"].astype(int)]
         if np.isfinite(share).any():
             fields["vertical_yield_stress_Pa"] = share * fields["yield_stress_Pa"]
+    history = run.results.history
+    suction = history.get("suction_Pa", np.zeros(len(history["time_s"])))
     return State(
         title=run.results.title,
         time=frame.time,
@@ -256,8 +264,9 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         unit_weight=weight,
         layers=layers,
         wall=wall_of(frame),
-        forces=forces_at(run.results.history, frame.time),
+        forces=forces_at(history, frame.time),
         outer_radius=float(frame.corners[..., 0].max()),
         bottom=float(frame.corners[..., 1].min()),
         surcharge=float(entries.get("Soil/Surcharge", 0)),
+        suction=float(np.interp(frame.time, history["time_s"], suction)),
     )

@@ -10,8 +10,8 @@ SIGNS = (
     " start (m). Forces are for the whole circumference.",
 )
 TOTAL = (
-    "Stress here is effective stress less excess pore pressure, which buoyant weight"
-    " balances: without pore water, it is the effective stress."
+    "Stress here is the total stress less the hydrostatic pressure, which buoyant"
+    " weight balances: without excess pore pressure, it is the effective stress."
 )
 NOT_BALANCED = (
     "The stress is interpolated between the points of the run. The first step of the"
@@ -24,11 +24,24 @@ def percent(share: float) -> str:
     return f"{float(f'{100 * share:.2g}'):.9g} %"
 
 
+def about_total_stress(state: State) -> list[str]:
+    """Return the line on layers whose stress is total."""
+    numbers = [str(layer.number) for layer in state.layers if layer.total]
+    if not numbers:
+        return []
+    return [
+        f"Layer {', '.join(numbers)}: undrained clay by total stress. Its stress is"
+        " the total one less the hydrostatic pressure; its pore pressure is not known,"
+        " and 0 here."
+    ]
+
+
 def about_state(state: State) -> list[str]:
     """Return what run and frame it is."""
     depth = f", penetration {state.penetration:.6g} m" if state.wall else ""
     where = f"at {state.time:.6g} s{depth}"
-    return [f"caisson_mpm: {state.title}", where, *SIGNS, NOT_BALANCED]
+    lines = [f"caisson_mpm: {state.title}", where, *SIGNS, *about_total_stress(state)]
+    return [*lines, NOT_BALANCED]
 
 
 def about_balance(state: Exported) -> list[str]:

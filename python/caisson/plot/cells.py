@@ -143,9 +143,11 @@ class CellMeans:
 
     def gradients(self, values: np.ndarray) -> np.ndarray:
         """Return the gradients [n_used, 2] of the affine fit of a field [n_points] to
-        the points of each cell; nan where too few of them, or a line, give none."""
-        place = [self.of(x)[self.row] for x in self.position.T]
-        off_r, off_z = (x - mean for x, mean in zip(self.position.T, place))
+        the points of each cell that know it; nan where too few of them, or a line, give
+        none."""
+        positions = np.where(np.isfinite(values), self.position.T, np.nan)
+        place = [self.of(x)[self.row] for x in positions]
+        off_r, off_z = (x - mean for x, mean in zip(positions, place))
         rr, rz, zz, fr, fz = (
             self.of(product)
             for product in (

@@ -37,6 +37,24 @@ NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a poi
 RATIO = "vertical_stress_over_stress_at_rest"
 
 
+def stress_in_words(scene: dict[str, Any], which: str) -> str:
+    """Return what the "vertical" or "normal" stress in the files of a run is: the total
+    one less the hydrostatic pressure u_0 in undrained clay whose pore pressure is not
+    computed, and else the effective one."""
+    total = [bool(layer.get("total_stress")) for layer in scene.get("layers") or []]
+    if not any(total):
+        return f"{which} effective stress"
+    return f"{which} {'total stress $- u_0$' if all(total) else 'stress (clay: total)'}"
+
+
+def of_total_stress(points: Table, scene: dict[str, Any]) -> np.ndarray:
+    """Return which points have a total stress, and no pore pressure: [n_points]."""
+    layers = scene.get("layers") or [{}]
+    total = np.array([bool(layer.get("total_stress")) for layer in layers])
+    material = points.get("material", np.zeros(len(points["position"])))
+    return total[material.astype(int)]
+
+
 class Frame:
     """The soil and the rigid body at one recorded time."""
 
@@ -56,6 +74,9 @@ class Frame:
                 " another version of the program"
             )
         self.soil = points
+        if "pore_pressure" in points:  # not known where the stress is total
+            unknown = of_total_stress(points, run.scene)
+            points["pore_pressure"] = np.where(unknown, np.nan, points["pore_pressure"])
         corners, rigid = cells["corners"], cells["material_id"] == 1
         self.body = corners[rigid]
         self.means = CellMeans(
@@ -288,15 +309,15 @@ def shown_values(
 def stress_of(
     frames: Sequence[Frame], window: Window
 ) -> tuple[list[np.ndarray], Style]:
-    """Return the vertical effective stress of each frame in kPa, compression
-    positive, and its colors."""
+    """Return the vertical stress of each frame in kPa, compression positive, and its
+    colors."""
     fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
 
 
 def ratio_of(label: str, frames: Sequence[Frame]) -> Field:
-    """Return the vertical effective stress over that at rest, white where it is 1."""
+    """Return the vertical stress over that at rest, white where it is 1."""
     shown = [np.maximum(frame.ratio, 1e-6) for frame in frames]  # none is below 0
     return label, shown, {"cmap": "BrBG_r", "norm": LogNorm(0.1, 10)}
 
@@ -329,13 +350,10 @@ def figure_of(
     return figure, axes
 
 
-def draw_stress(path: Path, frames: Sequence[Frame], window: Window) -> Path:
-    """Draw the vertical effective stress at each frame, and its ratio to that at
-    rest."""
-    stress = (
-        "left halves: vertical effective stress (kPa)",
-        *stress_of(frames, window),
-    )
+def draw_stress(path: Path, frames: Sequence[Frame], window: Window, name: str) -> Path:
+    """Draw the vertical stress at each frame, and its ratio to that at rest. name: of
+    this stress."""
+    stress = (f"left halves: {name} (kPa)", *stress_of(frames, window))
     sides = [
         stress,
         ratio_of("right halves: ratio to stress at rest (gray: none)", frames),
@@ -460,7 +478,12 @@ def draw(run: Results, frames: Sequence[Frame], window: Window) -> list[Path | N
     void_ratio.png; return their paths, None for none."""
     directory, scene = run.directory, run.scene
     return [
-        draw_stress(directory / "stress.png", frames, window),
+        draw_stress(
+            directory / "stress.png",
+            frames,
+            window,
+            stress_in_words(scene, "vertical"),
+        ),
         draw_displacement(directory / "displacement.png", frames[-1], window, scene),
         draw_void_ratio(directory / "void_ratio.png", frames, window),
     ]

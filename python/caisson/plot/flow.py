@@ -21,7 +21,7 @@ class Flow:
     each cell and continuous."""
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
-        """pressure: excess at the points."""
+        """pressure: excess at the points, nan of those in which no water flows."""
         self.corners, self.axisymmetric = means.polygons, means.axisymmetric
         flow = -means.gradients(pressure)
         corner = np.round(self.corners.reshape(-1, 2), 6)
@@ -33,6 +33,7 @@ class Flow:
         ]
         self.at_corners = (np.stack(sums, axis=-1) / count[:, None])[node]
         self.at_corners = self.at_corners.reshape(-1, 4, 2)
+        self.at_corners[np.isnan(means.of(pressure))] = np.nan
 
     def heights(
         self, cell: np.ndarray, r: np.ndarray

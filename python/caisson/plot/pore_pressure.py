@@ -88,15 +88,35 @@ def caption(frames: Sequence[fields.Frame]) -> str:
     )
 
 
+def is_flowing(
+    flow: Flow, frame: fields.Frame, window: fields.Window, least: float
+) -> bool:
+    """Return whether water flows: not where the pressure is below the least (kPa), and
+    not where clay beneath the plug lets so little through that the pressure in the
+    plug is the same everywhere."""
+    pressure = frame.soil["pore_pressure"]
+    most = np.nanmax(np.abs(pressure), initial=0)
+    level = level_of(frame, window)
+    if most / 1e3 <= least or np.isfinite(pressure).all():
+        return bool(most / 1e3 > least)
+    starts = flow.starts(N_LINES, level, window[0])
+    depth = frame.means.polygons[..., 1].max() - level
+    rise = np.abs(flow.at(starts)[0][:, 1])
+    return bool(rise.max(initial=0) > LEAST * most / depth)
+
+
 def draw_water(
-    axes: Axes, frame: fields.Frame, window: fields.Window, least: float | None
+    axes: Axes,
+    flow: Flow,
+    frame: fields.Frame,
+    window: fields.Window,
+    flows: bool | None,
 ) -> None:
-    """Draw the mudline, and flow lines where the water flows: least is the pressure
-    (kPa) below which it hardly does."""
-    flow = Flow(frame.means, frame.soil["pore_pressure"])
-    if least is not None and np.abs(frame.soil["pore_pressure"]).max() / 1e3 > least:
+    """Draw the mudline, and flow lines where the water flows, or that it hardly does;
+    flows: None where no flow is computed."""
+    if flows:
         draw_flow(axes, flow, frame, window)
-    elif least is not None:
+    elif flows is not None:
         place = (-window[0] / 2, window[1] / 2)
         axes.text(*place, "hardly\nany flow", ha="center", fontsize=9)
     draw_mudline(axes, flow, frame.body, window)
@@ -109,22 +129,26 @@ def draw(
     if any("pore_pressure" not in frame.soil for frame in frames):
         return None
     pressures = [frame.means.of(frame.soil["pore_pressure"] / 1e3) for frame in frames]
-    low, high = np.percentile(
-        fields.shown_values(frames, pressures, window), [0.2, 99.8]
-    )
+    shown = fields.shown_values(frames, pressures, window)
+    if not len(shown):
+        return None
+    low, high = np.percentile(shown, [0.2, 99.8])
     if max(-low, high) < 1e-3:
         return None
     style = style_of(low, high)
-    flows = "flow_iterations" in run.history  # not in undrained soil
+    found = [Flow(frame.means, frame.soil["pore_pressure"]) for frame in frames]
+    flows: list[bool | None] = [None] * len(frames)
+    if "flow_iterations" in run.history and run.entry("Water/Level") != "undrained":
+        least = LEAST * max(-style["vmin"], style["vmax"])
+        flows = [is_flowing(*one, window, least) for one in zip(found, frames)]
     pressure = ("left halves: excess pore pressure (kPa)", pressures, style)
     label = "right halves: ratio to stress at rest (gray: none)"
     sides = [pressure, fields.ratio_of(label, frames)]
-    figure, axes = fields.figure_of(frames, window, sides, 0.4 if flows else 0.0)
-    least = LEAST * max(-style["vmin"], style["vmax"]) if flows else None
-    for panel, frame in zip(axes.flat, frames):
-        draw_water(panel, frame, window, least)
+    figure, axes = fields.figure_of(frames, window, sides, 0.4 if any(flows) else 0.0)
+    for panel, flow, frame, is_seen in zip(axes.flat, found, frames, flows):
+        draw_water(panel, flow, frame, window, is_seen)
         panel.set_title(title_of(frame, run.history))
-    if flows:
+    if any(flows):
         figure.supxlabel(caption(frames), fontsize=9, color="0.3")
     path = run.directory / "pore_pressure.png"
     return disk.save(figure, path)

@@ -9,15 +9,17 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson.plot import fields
 from caisson.plot.fields import MOST_FRAMES, PAGE
 from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson import disk
 from caisson.shown import Units
 
-# part of the name of a column: its label, and the column of what stands beside it
+# part of the name of a column: its label, empty where that depends on the soil, and
+# what stands beside it
 STRESSES = {
-    "normal_stress": ("effective normal stress", "$K_0\\,\\sigma'_{v0}$"),
+    "normal_stress": ("", "$K_0\\,\\sigma'_{v0}$"),
     "shear_stress": ("shear stress, upward", "$K_0\\,\\sigma'_{v0}\\,\\tan\\delta$"),
 }
 AT_FRAME = 0.05  # m, between a penetration and its frame
@@ -71,6 +73,7 @@ def draw(path: Path, run: Results) -> Path | None:
     figure = Figure(figsize=(PAGE, 4.8), layout="constrained")
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
+        label = label or fields.stress_in_words(run.scene, "normal")
         for panel, name in zip(row, names):
             angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
             factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))

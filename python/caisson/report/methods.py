@@ -299,6 +299,8 @@ def walls_of(run: Results, h: float) -> reasons.Walls | None:
     at_rest = [float(x.get("K0") or 0) for x in layers]
     if not {"inner_area_m2", "outer_area_m2"} <= set(table) or not rows.any():
         return None
+    if "suction_Pa" in run.history and any(x.get("total_stress") for x in layers):
+        return None  # the suction is in the stress on the inner wall
     rows &= table["time_s"] == table["time_s"][rows][-1]
     rows &= table["vertical_stress_at_rest_Pa"] > 0
     means = []

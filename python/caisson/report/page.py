@@ -22,8 +22,8 @@ HERE = Path(__file__).parent
 REFRESH = 20  # s, of the page of a run that has not ended
 # name of a picture without its suffix: what it shows
 PICTURES = {
-    "stress": "Vertical effective stress",
-    "pore_pressure": "Excess pore pressure and flow lines, beside effective stress",
+    "stress": "Vertical stress",
+    "pore_pressure": "Excess pore pressure, beside the vertical stress",
     "walls": "Stresses along the walls",
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
