@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/command_line.h>
+#include <caisson_mpm/base/compat.h>
+#include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/failure_report.h>
-#include <caisson_mpm/base/single_process.h>
+#include <caisson_mpm/base/mpi_settings.h>
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/simulation/run_scene.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
 
+#include <fcntl.h>
 #include <malloc.h>
 
 #include <iostream>
@@ -18,6 +21,16 @@
 namespace
 {
   using namespace CaissonMPM;
+
+  /** Where standard input, output or error is closed, open a file there that is
+   * always full: a file of results would get its number, and the text. */
+  void
+  fill_closed_streams()
+  {
+    for (const int number : {0, 1, 2})
+      if (fcntl(number, F_GETFD) < 0)
+        open("/dev/full", O_RDWR); // it gets the lowest number that is free
+  }
 
   ExitStatus
   run(const int argc, const char *const *argv)
@@ -34,6 +47,7 @@ namespace
           << " (deal.II " DEAL_II_PACKAGE_VERSION ")\n";
     else
       return run_scene(command_line, out);
+    finish_list(out);
     return ExitStatus::success;
   }
 } // namespace
@@ -41,15 +55,14 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  set_up_single_process();
+  fill_closed_streams();
+  set_up_mpi();
   // Large arrays get pages of their own, whatever was freed before: the blocks
   // of points then begin at cache lines (MaterialPoints::Place).
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  // PETSc, which deal.II starts, sees the program's name alone: version 3.22
-  // complains on stdout of options that it does not know.
-  int                                      n_names = 1;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, argv, 1);
-  FailureReport                            failure(MPI_COMM_WORLD);
+  int                     n_names = 1; // the options are not for libraries
+  const Compat::Libraries libraries(n_names, argv);
+  FailureReport           failure(MPI_COMM_WORLD);
   try
     {
       return static_cast<int>(run(argc, argv));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <caisson_mpm/base/console.h>
+#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/shown_unit.h>
 #include <caisson_mpm/base/text.h>
 
@@ -203,5 +204,14 @@ namespace CaissonMPM
   {
     if (verbosity != Verbosity::silent)
       out << printable(text) << std::flush;
+  }
+
+  void
+  finish_list(std::ostream &out)
+  {
+    const bool prints = out.rdbuf() != nullptr;
+    if (prints && !out.flush())
+      throw RunFailure("standard output takes no more text: is it closed, or a "
+                       "disk full?");
   }
 } // namespace CaissonMPM

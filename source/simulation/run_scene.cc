@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
@@ -97,15 +98,6 @@ namespace CaissonMPM
                      (mistakes.size() == 1 ? " warning" : " warnings") +
                      ", which --strict takes for errors:" + text);
     }
-
-    /** Throw where a text has not been written as a whole. */
-    void
-    finish(std::ostream &out)
-    {
-      const bool is_first_rank = out.rdbuf() != nullptr;
-      if (is_first_rank && !out.flush())
-        throw RunFailure("standard output takes no more text: is a disk full?");
-    }
   } // namespace
 
 
@@ -128,7 +120,7 @@ namespace CaissonMPM
     if (command_line.print_parameters || !command_line.explain.empty())
       {
         print_parameters(origins, command_line.explain, out);
-        finish(out);
+        finish_list(out);
         return ExitStatus::success;
       }
     with_places(origins,
@@ -148,7 +140,7 @@ namespace CaissonMPM
               " is valid\n" :
               " has no wrong entry, but its first steps fail\n")
         << describe(cost);
-    finish(out);
+    finish_list(out);
     return ExitStatus::success;
   }
 } // namespace CaissonMPM

@@ -5,9 +5,9 @@
 
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/expression.h>
+#include <caisson_mpm/base/mpi_settings.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/parameter_file.h>
-#include <caisson_mpm/base/single_process.h>
 #include <caisson_mpm/base/stop_request.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
@@ -317,15 +317,15 @@ test_console()
 /** MPI's settings are replaced in a process that is alone, and kept in one of
  * several. */
 void
-test_single_process()
+test_mpi_settings()
 {
-  title("single process");
+  title("settings of MPI");
   for (const char *sign : {"PMIX_RANK", "PMI_RANK", "SLURM_PROCID", ""})
     {
       setenv("OMPI_MCA_btl", "tcp", 1);
       if (*sign != 0)
         setenv(sign, "0", 1);
-      std::cout << '"' << sign << "\" " << set_up_single_process() << ' '
+      std::cout << '"' << sign << "\" " << set_up_mpi() << ' '
                 << std::getenv("OMPI_MCA_btl") << '\n';
       if (*sign != 0)
         unsetenv(sign);
@@ -346,6 +346,6 @@ main(int argc, char *argv[])
   test_stop_file();
   test_timing();
   test_console();
-  test_single_process();
+  test_mpi_settings();
   return 0;
 }

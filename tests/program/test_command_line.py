@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The options of the program, and the parameters that it prints."""
+import os
 import re
 import subprocess
 import unittest
@@ -34,11 +35,33 @@ class Options(ProgramTest):
 
     def test_a_list_that_is_cut_off(self) -> None:
         """It is a failure, as on a full disk."""
-        words = [str(self.program), str(scene("jack")), "--print-parameters"]
-        with open("/dev/full", "w", encoding="utf-8") as full:
-            done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(done.returncode, FAILURE)
-        self.assertIn("standard output takes no more text", done.stderr)
+        for words in (f"{scene('jack')} --print-parameters", "--help", "--version"):
+            for output in (">/dev/full", ">&-"):
+                done = subprocess.run(
+                    f"{self.program} {words} {output}",
+                    shell=True,
+                    text=True,
+                    capture_output=True,
+                )
+                self.assertEqual(done.returncode, FAILURE)
+                self.assertRegex(
+                    done.stderr, r"\Afailure: standard output takes no .*\n\Z"
+                )
+
+    def test_files_of_the_current_folder(self) -> None:
+        """Those that the call does not name are not opened: neither the settings of
+        libraries, one of which is a pipe on which all would wait, nor libraries."""
+        folder = self.made_directory("stranger")
+        (folder / ".petscrc").write_text("-log_view :RAN\n", encoding="utf-8")
+        os.mkfifo(folder / ".adolcrc")
+        for name in ("libz.so.1", "libm.so.6", "libdeal.ii.so.9.4.1"):
+            (folder / name).write_text("no library", encoding="utf-8")
+        before = sorted(folder.iterdir())
+        text = subprocess.check_output(
+            [str(self.program), "--version"], cwd=folder, text=True, timeout=600
+        )
+        self.assertRegex(text, r"^caisson_mpm .*\n$")
+        self.assertEqual(sorted(folder.iterdir()), before)
 
     def test_entries_with_a_word(self) -> None:
         """One layer stands for those that have the defaults."""

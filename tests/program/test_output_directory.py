@@ -113,6 +113,14 @@ class Failures(ProgramTest):
             self.assertGreater(found["scene"]["diameter_m"], 0)
             self.assertEqual(list(path.glob("run.json?*")), [])
 
+    def test_long_path(self) -> None:
+        """A path longer than 255 characters has checkpoints, of several ranks too."""
+        path = self.directory() / ("a" * 200) / ("b" * 200)
+        end = {"Time/End penetration": 0.505}
+        for ranks in (1, 2):
+            self.run_scene("jack", path, entries=end, ranks=ranks)
+            self.assertTrue((path / "checkpoint.info").is_file())
+
     def test_limit_of_file_size(self) -> None:
         """It is met as a full disk is, and not by the end of the process."""
         path = self.directory()

@@ -131,6 +131,12 @@ namespace CaissonMPM
     std::ostream        &out;
     std::vector<Warning> warnings_;
   };
+
+  /** Throw RunFailure where a list, as of all entries, has not been printed as
+   * a
+   * whole; @p out has no buffer on the ranks that do not print. */
+  void
+  finish_list(std::ostream &out);
 } // namespace CaissonMPM
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/base/single_process.h>
+#include <caisson_mpm/base/mpi_settings.h>
 
 #include <cstdlib>
 #include <utility>
@@ -17,12 +17,10 @@ namespace CaissonMPM
                                                "SLURM_PROCID",
                                                "ALPS_APP_PE"};
 
-    /** Parameters of Open MPI. Without the daemon all processes have the same
-     * name, and so would have their files in the same place. */
+    /** Parameters of Open MPI. */
     constexpr std::pair<const char *, const char *> settings[] = {
       {"OMPI_MCA_ess_singleton_isolated", "1"},
       {"OMPI_MCA_orte_create_session_dirs", "0"},
-      {"OMPI_MCA_sharedfp", "^sm"},
       {"OMPI_MCA_pml", "ob1"},
       {"OMPI_MCA_btl", "self"}};
   } // namespace
@@ -30,8 +28,10 @@ namespace CaissonMPM
 
 
   bool
-  set_up_single_process()
+  set_up_mpi()
   {
+    setenv("OMPI_MCA_io", "^ompio", 1);
+    setenv("HWLOC_COMPONENTS", "-gl", 0);
     for (const char *sign : signs_of_others)
       if (std::getenv(sign) != nullptr)
         return false;
@@ -40,3 +40,10 @@ namespace CaissonMPM
     return true;
   }
 } // namespace CaissonMPM
+
+/** ADOL-C, which deal.II loads and this program does not use, finds this
+ * function in the place of its own, which reads a file .adolcrc in the current
+ * folder, and waits there where it is a pipe. */
+extern "C" void
+readConfigFile()
+{}
