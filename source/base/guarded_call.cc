@@ -93,13 +93,19 @@ namespace CaissonMPM
     }
 
     void
-    on_crash(const int number)
+    on_crash(const int number, siginfo_t *const info, void *)
     {
+      const ForeignCode *const code = running;
+      const bool               outside =
+        number == SIGSEGV && code != nullptr && code->is_guard(info->si_addr);
       char what[200];
       std::snprintf(what,
                     sizeof(what),
-                    "has crashed with SIG%s (%s). Compile it with -g "
-                    "-fcheck=all to find out where",
+                    "has %s SIG%s (%s). Compile it with -g -fcheck=all to find "
+                    "out where",
+                    outside ? "read or written outside its arguments, and has "
+                              "crashed with" :
+                              "crashed with",
                     sigabbrev_np(number),
                     sigdescr_np(number));
       end_if_foreign(what);
@@ -151,8 +157,8 @@ namespace CaissonMPM
       stack.ss_size     = sizeof(room);
       sigaltstack(&stack, nullptr);
       struct sigaction handler = {};
-      handler.sa_handler       = on_crash;
-      handler.sa_flags         = SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
+      handler.sa_sigaction     = on_crash;
+      handler.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
       for (const int number : crashes)
         sigaction(number, &handler, nullptr);
       std::atexit(on_exit_of_program);
@@ -191,10 +197,9 @@ namespace CaissonMPM
       {
         throw;
       }
-    catch (const EndOfAnalysis &)
+    catch (const EndOfAnalysis &end)
       {
-        return "has called XIT, or STDB_ABQERR with an error, as for a CMNAME "
-               "(Material name) or for Properties that it does not know";
+        return end.reason;
       }
     catch (const std::exception &error)
       {

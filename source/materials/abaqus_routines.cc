@@ -5,6 +5,7 @@
 //
 // Reference: Abaqus User Subroutines Reference Guide, Utility Routines.
 #include <caisson_mpm/base/guarded_call.h>
+#include <caisson_mpm/base/text.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -21,6 +22,10 @@ namespace CaissonMPM
   {
     using Tensor3 = dealii::SymmetricTensor<2, 3>;
 
+    const char end_of_abaqus[] =
+      "has called XIT, or STDB_ABQERR with an error, as for a CMNAME (Material "
+      "name) or for Properties that it does not know";
+
     // of the components 12, 13, 23
     constexpr unsigned int shear_rows[]    = {0, 0, 1},
                            shear_columns[] = {1, 2, 2};
@@ -33,13 +38,32 @@ namespace CaissonMPM
       return kind == 2 ? .5 : 1.;
     }
 
-    /** A stress, or for @p kind = 2 a strain. */
+    /** The tensor of components @p s: a stress for @p kind = 1, a strain for 2.
+     * Throws what says that @p routine has been called with something else. */
     Tensor3
-    tensor_of(const double *s,
+    tensor_of(const char   *routine,
+              const double *s,
               const int     kind,
               const int     n_direct,
               const int     n_shear)
     {
+      const std::string call = std::string("has called ") + routine + " with ";
+      if (kind != 1 && kind != 2)
+        throw EndOfAnalysis{call + "LSTR = " + to_text(kind) +
+                            ": 1 is a stress, 2 a strain"};
+      if (n_direct < 0 || n_direct > 3 || n_shear < 0 || n_shear > 3)
+        throw EndOfAnalysis{call + "NDI = " + to_text(n_direct) +
+                            " and NSHR = " + to_text(n_shear) +
+                            ": each is at most 3"};
+      const double *const end = s + n_direct + n_shear;
+      if (!std::all_of(s, end, [](const double x) { return std::isfinite(x); }))
+        {
+          std::string numbers;
+          for (const double *x = s; x < end; ++x)
+            numbers += (x > s ? ", " : "") + to_text(*x, 6);
+          throw EndOfAnalysis{call + (kind == 2 ? "a strain" : "a stress") +
+                              " that is not finite: " + numbers};
+        }
       Tensor3 result;
       for (int i = 0; i < n_direct; ++i)
         result[i][i] = s[i];
@@ -95,7 +119,7 @@ extern "C"
   void
   xit_()
   {
-    throw EndOfAnalysis();
+    throw EndOfAnalysis{end_of_abaqus};
   }
 
   /** Print a message; @p lop = -3 ends the analysis. */
@@ -117,7 +141,7 @@ extern "C"
                                    words)
                 << std::endl;
     if (*lop <= -3)
-      throw EndOfAnalysis();
+      throw EndOfAnalysis{end_of_abaqus};
   }
 
   /** The directory of results: libraries get that of the process. */
@@ -147,7 +171,7 @@ extern "C"
         const int    *n_direct,
         const int    *n_shear)
   {
-    const Tensor3 t = tensor_of(stress, 1, *n_direct, *n_shear);
+    const Tensor3 t = tensor_of("SINV", stress, 1, *n_direct, *n_shear);
     *mean           = trace(t) / 3.;
     *mises          = std::sqrt(1.5) * deviator(t).norm();
   }
@@ -160,7 +184,8 @@ extern "C"
           const int    *n_direct,
           const int    *n_shear)
   {
-    const auto found = principal(tensor_of(s, *kind, *n_direct, *n_shear));
+    const auto found =
+      principal(tensor_of("SPRINC", s, *kind, *n_direct, *n_shear));
     for (unsigned int i = 0; i < 3; ++i)
       values[i] = found[i].first;
   }
@@ -174,7 +199,8 @@ extern "C"
           const int    *n_direct,
           const int    *n_shear)
   {
-    const auto found = principal(tensor_of(s, *kind, *n_direct, *n_shear));
+    const auto found =
+      principal(tensor_of("SPRIND", s, *kind, *n_direct, *n_shear));
     for (unsigned int i = 0; i < 3; ++i)
       {
         values[i] = found[i].first;
@@ -197,7 +223,8 @@ extern "C"
       for (unsigned int j = 0; j < 3; ++j)
         r[i][j] = rotation[i + 3 * j];
     const dealii::Tensor<2, 3> turned =
-      r * dealii::Tensor<2, 3>(tensor_of(s, *kind, *n_direct, *n_shear)) *
+      r *
+      dealii::Tensor<2, 3>(tensor_of("ROTSIG", s, *kind, *n_direct, *n_shear)) *
       transpose(r);
     for (int i = 0; i < *n_direct; ++i)
       rotated[i] = turned[i][i];

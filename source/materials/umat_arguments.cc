@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/materials/umat_arguments.h>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <utility>
 
 namespace CaissonMPM
@@ -39,7 +43,28 @@ namespace CaissonMPM
 
     // the bits of a quiet NaN, with a mark and the number of an argument
     constexpr std::uint64_t mark = 0x7ff8ca1550000000, labels = 0x3f;
-    static_assert(n_arguments <= labels, "the mark has no room for more");
+    static_assert(around_all <= labels, "the mark has no room for more");
+
+    constexpr std::size_t out_of_reach = 1 << 20; // bytes on each side
+
+    /** Numbers that fill whole pages, between others that cannot be used. */
+    std::shared_ptr<double>
+    guarded_pages(const std::size_t n)
+    {
+      const std::size_t size = n * sizeof(double),
+                        all  = size + 2 * out_of_reach;
+      void *const room =
+        mmap(nullptr, all, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+      if (room == MAP_FAILED)
+        throw std::bad_alloc();
+      char *const begin = static_cast<char *>(room) + out_of_reach;
+      const auto  free  = [room, all](double *) { munmap(room, all); };
+      const std::shared_ptr<double> result(reinterpret_cast<double *>(begin),
+                                           free);
+      if (mprotect(begin, size, PROT_READ | PROT_WRITE) != 0)
+        throw std::bad_alloc();
+      return result;
+    }
 
     std::uint64_t
     bits_of(const double number)
@@ -88,12 +113,10 @@ namespace CaissonMPM
     // single numbers have no guard, and lengths that are mistaken at times a
     // longer one
     constexpr std::size_t few = 4, many = 32;
-    // so that what goes far beyond the last one damages nothing else
-    constexpr std::size_t at_the_end = 4096;
-    const std::size_t     of_size[]  = {n_components,
-                                        n_components * n_components,
-                                        n_variables,
-                                        n_properties};
+    const std::size_t     of_size[] = {n_components,
+                                       n_components * n_components,
+                                       n_variables,
+                                       n_properties};
     const auto add_guard = [this](const unsigned int i, const std::size_t n) {
       for (std::size_t k = 0; k < n; ++k)
         {
@@ -114,16 +137,19 @@ namespace CaissonMPM
         if (size != 1)
           add_guard(i, is_mistaken ? many : few);
       }
-    lent = own;
-    lent.resize(own.size() + at_the_end);
+    end                    = own.size();
+    const std::size_t page = sysconf(_SC_PAGESIZE) / sizeof(double);
+    own.resize((end + page - 1) / page * page, guard_word(around_all));
+    lent = guarded_pages(own.size());
+    std::copy(own.begin(), own.end(), lent.get());
   }
 
   void
   UmatArguments::call_umat(const Routine umat)
   {
-    std::copy(own.begin(), own.end(), lent.begin());
+    std::copy_n(own.begin(), end, lent.get());
     call(umat,
-         lent.data(),
+         lent.get(),
          places.data(),
          std::make_index_sequence<n_of_umat>());
   }
@@ -131,7 +157,7 @@ namespace CaissonMPM
   void
   UmatArguments::call_sdvini(const Routine sdvini)
   {
-    std::copy(own.begin(), own.end(), lent.begin());
+    std::copy_n(own.begin(), end, lent.get());
     const std::size_t of_sdvini[] = {places[statev],
                                      places[coords],
                                      places[nstatv],
@@ -140,27 +166,39 @@ namespace CaissonMPM
                                      places[npt],
                                      places[layer],
                                      places[kspt]};
-    call(sdvini, lent.data(), of_sdvini, std::make_index_sequence<8>());
+    call(sdvini, lent.get(), of_sdvini, std::make_index_sequence<8>());
   }
 
   UmatArguments::Index
   UmatArguments::written_guard() const
   {
     // 4 at a time, which do not wait for each other: guards have 4 or 32
-    std::uint64_t difference[4] = {};
+    const double *const words         = lent.get();
+    std::uint64_t       difference[4] = {};
     for (std::size_t i = 0; i < guard_words.size(); i += 4)
       for (std::size_t k = 0; k < 4; ++k)
-        difference[k] |= bits_of(lent[guard_words[i + k]]) ^ mark;
-    if ((difference[0] | difference[1] | difference[2] | difference[3]) <=
+        difference[k] |= bits_of(words[guard_words[i + k]]) ^ mark;
+    if ((difference[0] | difference[1] | difference[2] | difference[3]) >
         labels)
-      return n_arguments;
-    const auto first =
-      std::find_if(guard_words.begin(),
-                   guard_words.end(),
-                   [this](const unsigned int i) {
-                     return bits_of(lent[i]) != bits_of(own[i]);
-                   });
-    return guard_in(own[*first]);
+      return guard_in(own[*std::find_if(
+        guard_words.begin(), guard_words.end(), [&](const unsigned int i) {
+          return bits_of(words[i]) != bits_of(own[i]);
+        })]);
+    return std::memcmp(words + end,
+                       own.data() + end,
+                       (own.size() - end) * sizeof(double)) == 0 ?
+             n_arguments :
+             around_all;
+  }
+
+  bool
+  UmatArguments::is_near(const void *address) const
+  {
+    const char *const first = reinterpret_cast<const char *>(lent.get());
+    const auto        place = static_cast<const char *>(address) - first;
+    return place >= -static_cast<std::ptrdiff_t>(out_of_reach) &&
+           place < static_cast<std::ptrdiff_t>(own.size() * sizeof(double) +
+                                               out_of_reach);
   }
 
   UmatArguments::Index
@@ -168,6 +206,6 @@ namespace CaissonMPM
   {
     constexpr std::uint64_t sign  = std::uint64_t(1) << 63;
     const std::uint64_t     guard = (bits_of(number) & ~sign) - mark;
-    return guard < n_arguments ? static_cast<Index>(guard) : n_arguments;
+    return guard <= around_all ? static_cast<Index>(guard) : n_arguments;
   }
 } // namespace CaissonMPM

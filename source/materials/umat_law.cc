@@ -339,6 +339,8 @@ namespace CaissonMPM
                       "/Stress components = 6; else NTENS is 4 (11, 22, 33, "
                       "12), and DDSDDE has 4 x 4 numbers" :
                     ". NTENS is 6, and DDSDDE has 6 x 6 numbers");
+        case around_all:
+          return text + "its arguments";
         default:
           return text + UmatArgument::name(guard);
       }

@@ -45,6 +45,12 @@ FAULTS = {
     "throw 7;": ["no std::exception"],
     "*pnewdt = .25;": ["PNEWDT = 0.25"],
     "ddsdde[5] = 0. / (stress[1] - stress[1]);": ["DDSDDE", "nan"],
+    "__builtin_memset((char *)stress - 64, 0, 64);": ["outside its arguments"],
+    "__builtin_memset((char *)stress + 4096, 0, 64);": ["outside its arguments"],
+    "stress[99999] = 1.;": ["outside its arguments", "SIGSEGV"],
+    "stress[-99999] = 1.;": ["outside its arguments", "SIGSEGV"],
+    "principal(0. / (stress[1] - stress[1]), 3);": ["SPRINC", "stress that", "nan, 1"],
+    "principal(1., 300);": ["SPRINC with NDI = 300"],
 }
 # does no harm: the third property is the fault, the fourth the first step of it
 HARMLESS = {
@@ -64,6 +70,14 @@ recurse(const volatile double *x)
 {{
   volatile double y[99] = {{*x}};
   return recurse(y) + y[1];
+}}
+extern "C" void sprinc_(const double *, double *, int *, int *, int *);
+static void
+principal(const double first, int n_direct)
+{{
+  double s[6] = {{first, 1.}}, values[3];
+  int stress = 1, n_shear = 3;
+  sprinc_(s, values, &stress, &n_direct, &n_shear);
 }}
 extern "C" {{
 {elastic}

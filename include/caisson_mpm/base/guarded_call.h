@@ -23,14 +23,25 @@ namespace CaissonMPM
     virtual void
     describe(const char *what, char *text, const std::size_t size) const = 0;
 
+    /** Whether memory at this address, which cannot be used, is there to find
+     * out that the code uses what it has not been given. Nor must this. */
+    virtual bool
+    is_guard(const void *) const
+    {
+      return false;
+    }
+
     /** The same sentence. */
     std::string
     description(const std::string &what) const;
   };
 
-  /** What foreign code throws by XIT. */
+  /** What a routine of the program that foreign code has called throws, and
+   * what this code has done, as in "has called XIT". */
   struct EndOfAnalysis
-  {};
+  {
+    std::string reason;
+  };
 
   /**
    * While an object lives, foreign code runs. Where it crashes (SIGSEGV,

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 namespace CaissonMPM
@@ -24,8 +25,8 @@ namespace CaissonMPM
       ndi, nshr, ntens, nstatv, props, nprops, coords, drot, pnewdt, celent,
       dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc,
       n_of_umat, ncrds = n_of_umat,
-      n_arguments
-      // clang-format on
+      n_arguments, around_all // what is around all of them
+                 // clang-format on
     };
     constexpr std::size_t length_of_cmname = 80;
 
@@ -40,7 +41,9 @@ namespace CaissonMPM
   /**
    * The arguments of the calls. A call gets a copy of all of them, which it may
    * change as it likes, with guard words before and behind each array: numbers
-   * that are not finite, and say by their bits which argument they guard.
+   * that are not finite, and say by their bits which argument they guard. The
+   * copy fills pages of its own, and a mebibyte on both sides can be neither
+   * read nor written: a call that tries it has crashed.
    */
   class UmatArguments
   {
@@ -86,7 +89,7 @@ namespace CaissonMPM
     const double *
     returned(const Index argument) const
     {
-      return lent.data() + places[argument];
+      return lent.get() + places[argument];
     }
 
     std::size_t
@@ -108,6 +111,11 @@ namespace CaissonMPM
     Index
     written_guard() const;
 
+    /** Whether the address lies so close to the arguments that only a call can
+     * have used it. */
+    bool
+    is_near(const void *address) const;
+
     /** The argument whose guard was read, if the number is computed with it;
      * n_arguments else. */
     static Index
@@ -116,7 +124,9 @@ namespace CaissonMPM
   private:
     std::array<std::size_t, UmatArgument::n_arguments> sizes, places;
     std::vector<unsigned int> guard_words; // where they are
-    std::vector<double>       own, lent;
+    std::size_t               end;         // of the arguments; guards follow
+    std::vector<double>       own;
+    std::shared_ptr<double>   lent;
   };
 } // namespace CaissonMPM
 

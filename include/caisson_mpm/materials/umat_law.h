@@ -111,6 +111,12 @@ namespace CaissonMPM
              char             *text,
              const std::size_t size) const override;
 
+    bool
+    is_guard(const void *address) const override
+    {
+      return arguments.is_near(address);
+    }
+
   private:
     using Arguments = UmatArguments;
 
