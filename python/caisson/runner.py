@@ -96,6 +96,7 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     done = subprocess.run(
         [str(program), *arguments],
         text=True,
+        errors="surrogateescape",  # of a path
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         env=environment(),
@@ -282,11 +283,11 @@ class Run:
         """
         command = [*self.command(), *(["--overwrite"] if overwrite else [])]
         with (
-            tempfile.TemporaryFile("w+", encoding="utf-8") as errors,
+            tempfile.TemporaryFile("w+", errors="surrogateescape") as errors,
             subprocess.Popen(
                 command,
                 text=True,
-                errors="replace",
+                errors="surrogateescape",
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=errors,

@@ -2,6 +2,7 @@
 """Files of a run, tables, and pictures of a stored tiny run."""
 import contextlib
 import io
+import os
 import shutil
 import tempfile
 import unittest
@@ -11,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curve, plot, table, units
+from caisson import curve, plot, table, units, vtu
 from caisson.plot import fields, forces
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import boundary_now, chosen, tops_of, window_of
@@ -112,6 +113,12 @@ class Files(Directory):
         (self.path / "run/points_0001.vtu").unlink()
         self.assertEqual(len(run.frames()), 2)
         self.assertEqual(Results(self.path).frames(), [])
+
+    def test_path_that_is_no_text(self) -> None:
+        """A frame is read whatever bytes its path has."""
+        path = self.path / os.fsdecode(b"\xff")
+        frames = Results(shutil.copytree(TINY, path)).frames()
+        self.assertGreater(len(vtu.read_points(frames[0][1])["position"]), 0)
 
 
 class Tables(Directory):
