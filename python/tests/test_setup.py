@@ -180,6 +180,27 @@ class Setup(unittest.TestCase):
                 for line in called[:-2]:
                     self.assertRegex(line, "^update|--no-remove|--simulate")
 
+    def test_copied_build_folder(self) -> None:
+        """A build folder that cmake made elsewhere is configured anew."""
+        cmake = self.system / "bin/cmake"
+        cmake.write_text("#!/bin/sh\n", encoding="utf-8")
+        cmake.chmod(0o755)
+        build = self.root / "build/release"
+        build.mkdir(parents=True)
+        cache = build / "CMakeCache.txt"
+        text = "CMAKE_CACHEFILE_DIR:INTERNAL={}\nCMAKE_HOME_DIRECTORY:INTERNAL={}\n"
+        packages = "libdeal.ii-dev g++ cmake ninja-build nlohmann-json3-dev python3"
+        for home, place, is_own in (
+            (self.root, build, True),
+            ("/elsewhere/project", build, False),
+            (self.root, "/elsewhere/build", False),
+        ):
+            cache.write_text(text.format(place, home), encoding="utf-8")
+            done = self.call("build", packages)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(cache.exists(), is_own)
+            self.assertEqual("configured anew" not in done.stdout, is_own, done.stdout)
+
 
 class Needed(unittest.TestCase):
     """caisson.needed, in a Python without the packages of Debian."""

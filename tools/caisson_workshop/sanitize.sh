@@ -10,7 +10,7 @@
 # Usage: tools/workshop sanitize [option of ctest]...
 #   e.g. tools/workshop sanitize -R kernels
 set -euo pipefail
-if [[ ${1:-} == --help || ${1:-} == -h ]]; then sed -n '4,/^set/s/^# \{0,1\}//p' "$0" && exit; fi
+if [[ ${1:-} == --help || ${1:-} == -h ]]; then sed -n '4,/^set/s/^# \{0,1\}//p' "$0"; exit; fi
 cd "$(dirname "$0")/../.."
 export BUILD_DIRECTORY=build/sanitizers
 CMAKE_OPTIONS="-DCAISSON_MPM_SANITIZERS=address,undefined ${CMAKE_OPTIONS:-}"
