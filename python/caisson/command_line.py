@@ -6,7 +6,7 @@ Each subcommand is a module with add_arguments(parser) and main(options). Only t
 module of the subcommand that is called is loaded.
 """
 import argparse
-import csv
+import contextlib
 import difflib
 import importlib
 import os
@@ -26,24 +26,14 @@ from caisson.terminal import PlainText
 Groups = Mapping[str, Mapping[str, tuple[str, str]]]
 
 
-# what reading a file that is not as it should be may end with
-DAMAGE = (
-    *(ArithmeticError, AttributeError, LookupError, MemoryError),
-    *(RecursionError, TypeError, ValueError, csv.Error),
-)
-TRACEBACK = "CAISSON_TRACEBACK"
-
-
 def words_on(error: Exception) -> str:
-    """Return in one line what a file has led to: which files were read, and where the
-    program did not understand them."""
+    """Return in one line what a fault of the program is, and what it had read."""
     place = traceback.extract_tb(error.__traceback__)[-1]
-    kind = type(error).__name__
-    text = disk.one_line(f"{kind}: {error}" if str(error) else kind)[:200]
-    files = " or ".join(map(str, disk.read_last)) or "the input"
+    where = f"{Path(place.filename).name}:{place.lineno}"
+    files = f" with {', '.join(map(str, disk.read_last))}" if disk.read_last else ""
     return (
-        f"{files} is not as it should be, or is too large ({text}, at"
-        f" {Path(place.filename).name}:{place.lineno}; {TRACEBACK}=1 shows all)"
+        f"a fault of the program itself, at {where}: {disk.words_of(error)}."
+        f" {disk.TRACEBACK}=1 shows more; please report it{files}"
     )
 
 
@@ -140,8 +130,10 @@ def run_command(
         raise
     except (InputError, OSError) as error:
         print(f"{name}: {error}", file=sys.stderr)
-    except DAMAGE as error:
-        if TRACEBACK in os.environ:
+    except MemoryError:
+        print(f"{name}: there is not enough memory", file=sys.stderr)
+    except Exception as error:
+        if disk.TRACEBACK in os.environ:
             raise
         print(f"{name}: {words_on(error)}", file=sys.stderr)
     return 1
@@ -160,13 +152,31 @@ def for_each(name: str, places: Sequence[Path], do: Callable[[Path], None]) -> i
 
 
 def end_process(main: Callable[[Sequence[str]], int]) -> NoReturn:
-    """Run the command of this process, and end it."""
-    sys.stdout = cast(TextIO, PlainText(sys.stdout))
-    sys.stderr = cast(TextIO, PlainText(sys.stderr))
+    """Run the command of this process, and end it. A text that standard output does not
+    take as a whole is a failure."""
+    # where a standard stream is closed, a file of results would get its number and text
+    while (number := os.open("/dev/full", os.O_RDWR)) < 3:
+        os.set_inheritable(number, True)
+    os.close(number)
+    sys.stdout = cast(TextIO, PlainText(sys.stdout or os.fdopen(1, "w", closefd=False)))
+    sys.stderr = cast(TextIO, PlainText(sys.stderr or os.fdopen(2, "w", closefd=False)))
+    status: Any = 1
     try:
-        sys.exit(main(sys.argv[1:]))
+        if Path("matplotlibrc").exists() and needed.is_there("matplotlib"):
+            with contextlib.chdir("/"):  # where it finds no settings
+                importlib.import_module("matplotlib")
+        try:
+            status = main(sys.argv[1:])
+        except SystemExit as end:  # of argparse
+            status = end.code
+        sys.stdout.flush()
     except BrokenPipeError:  # as of `| head`
         os._exit(1)
     except KeyboardInterrupt:
         print("\ninterrupted; what is finished is kept", file=sys.stderr)
         os._exit(1)
+    except OSError as error:
+        text = "standard output takes no more text: is it closed, or a disk full?"
+        print(f"{text} ({error.strerror})", file=sys.stderr)
+        os._exit(1)
+    sys.exit(status)

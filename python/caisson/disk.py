@@ -8,15 +8,19 @@ all_or_none() it is refused, and keep() puts it aside as the program does with e
 results.
 """
 import contextlib
+import csv
+import functools
 import io
 import json
 import os
 import re
 import threading
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, cast
+
+from caisson import terminal
 
 
 class InputError(Exception):
@@ -24,6 +28,13 @@ class InputError(Exception):
 
 
 Refusal = type[InputError]
+Reader = TypeVar("Reader", bound=Callable[..., Any])
+TRACEBACK = "CAISSON_TRACEBACK"  # in the environment: show faults in full
+# what reading a file that is not as it should be may end with
+DAMAGE = (
+    *(ArithmeticError, AttributeError, LookupError, MemoryError),
+    *(RecursionError, TypeError, ValueError, csv.Error),
+)
 MOST = 2**29  # bytes of a text: a device has no end
 EARLIER = re.compile(r"earlier_(\d{1,9})")  # as the program names them
 
@@ -59,6 +70,30 @@ def read_text(path: Path, refuse: Refusal = InputError) -> str:
             f"{path}, line {line}: the byte 0x{data[error.start]:02x} is no text in"
             " UTF-8; save the file as UTF-8"
         ) from error
+
+
+def words_of(error: Exception) -> str:
+    """Return the kind and the text of an error in one line."""
+    kind = type(error).__name__
+    return one_line(f"{kind}: {error}" if str(error) else kind)[:200]
+
+
+def reads(function: Reader) -> Reader:
+    """Decorate what reads the file, or files, of its first argument: damage that it
+    does not know becomes an InputError on the first of them."""
+
+    @functools.wraps(function)
+    def call(paths: Any, *others: Any, **more: Any) -> Any:
+        try:
+            return function(paths, *others, **more)
+        except DAMAGE as error:
+            if TRACEBACK in os.environ:
+                raise
+            path = paths if isinstance(paths, Path) else paths[0]
+            text = f"({words_of(error)}; {TRACEBACK}=1 shows more)"
+            raise InputError(f"{path} is damaged or too large {text}") from error
+
+    return cast(Reader, call)
 
 
 def in_one_line(text: str) -> str:
@@ -124,6 +159,7 @@ def save(figure: Any, path: Path, dpi: int = 150) -> Path:
     """Write a figure of matplotlib, in the format that its name ends with; return the
     path."""
     buffer = io.BytesIO()
+    terminal.set_literally(figure)
     figure.savefig(buffer, format=path.suffix[1:] or "png", dpi=dpi)
     return write(path, buffer.getvalue())
 
@@ -135,6 +171,7 @@ def save_pages(figures: Iterable[Any], path: Path) -> Path:
     buffer = io.BytesIO()
     with PdfPages(buffer) as pages:
         for figure in figures:
+            terminal.set_literally(figure)
             pages.savefig(figure)
     return write(path, buffer.getvalue())
 

@@ -322,6 +322,7 @@ class Reader:
         )
 
 
+@disk.reads
 def read_toml(file: Path) -> dict[str, Any]:
     """Return the content of a study file. Raises StudyError."""
     try:

@@ -3,6 +3,7 @@
 import unicodedata
 from typing import Any, TextIO
 
+MOST = 250  # characters in a line of a picture
 CLEAR = "\r\x1b[K"  # goes back to the beginning of the line, and clears it
 
 
@@ -17,6 +18,18 @@ def printable(text: str) -> str:
         c if c.isprintable() or c == "\t" else c.encode("unicode_escape").decode()
         for c in letters
     )
+
+
+def set_literally(figure: Any) -> None:
+    """Let matplotlib draw the texts of a figure letter by letter, as they may be a
+    user's, and no line that is longer than a page. Only the labels of axes, and numbers
+    that matplotlib writes, may have formulas."""
+    labels = {axis.label for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)}
+    for text in {*figure.findobj(lambda x: hasattr(x, "set_parse_math"))} - labels:
+        words = text.get_text()
+        if words and not words.startswith("$\\mathdefault"):
+            text.set_parse_math(False)
+            text.set_text("\n".join(line[:MOST] for line in words.split("\n")))
 
 
 class PlainText:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Material points and cells of .vtu files as arrays."""
+import os
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from pathlib import Path
@@ -44,6 +45,7 @@ def check(file: Path) -> None:
             )
 
 
+@disk.reads
 def read_grid(file: Path) -> Any:
     """Return the vtkUnstructuredGrid of a .vtu file. Raises ResultsError."""
     check(file)
@@ -51,7 +53,7 @@ def read_grid(file: Path) -> Any:
     vtkOutputWindow.SetInstance(said)
     try:
         reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(file))
+        reader.SetFileName(os.fsencode(file))
         reader.Update()
         grid = reader.GetOutput()
     finally:
@@ -102,6 +104,7 @@ def corners_of(grid: Any) -> np.ndarray:
     return np.take_along_axis(corners, order[:, [0, 2, 3, 1], np.newaxis], 1)
 
 
+@disk.reads
 def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
     """Return the fields of all material points, [n] or [n, components]; "position"
     [n, 2] (m) is among them. Raises OSError where there is no point."""
@@ -112,6 +115,7 @@ def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
     return Read(files[0], arrays_of(grid.GetPointData()) | more)
 
 
+@disk.reads
 def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:
     """Return the fields of the cells of the background grid, [n] or [n, components],
     and their "corners" [n, 4, 2] as of corners_of()."""

@@ -3,18 +3,23 @@
 import errno
 import io
 import os
+import subprocess
 import tomllib
 import unittest
 import unittest.mock
+from collections.abc import Callable
 from contextlib import redirect_stderr
 from pathlib import Path
+from typing import Any
 
 from made_up_state import Temporary
+from matplotlib.figure import Figure
 
 from caisson import command_line
 from caisson.__main__ import GROUPS
 from caisson import disk
 from caisson.disk import InputError
+from caisson.paths import ROOT
 from caisson.terminal import CLEAR, PlainText
 
 FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -126,33 +131,92 @@ class Writing(Temporary):
 
 
 class Damage(Temporary):
-    """The last resort at the command line."""
+    """The last resort at the command line: one line, and status 1."""
 
-    def test_one_line(self) -> None:
-        """Whatever a file leads to: its name, the kind and the place, and status 1."""
-        path = self.path / "a.csv"
-        path.write_text("1", encoding="utf-8")
+    def setUp(self) -> None:
+        super().setUp()
+        self.file = self.path / "a.csv"
+        self.file.write_text("1", encoding="utf-8")
+
+    def said(self, main: Callable[[object], int]) -> str:
+        """Return what a command says in which something fails."""
+        said = io.StringIO()
+        with unittest.mock.patch("caisson.scenes.main", main), redirect_stderr(said):
+            status = command_line.run_command(["scenes"], "caisson", "", GROUPS)
+        self.assertEqual(status, 1)
+        self.assertRegex(said.getvalue(), r"\Ascenes: .*\n\Z")
+        self.assertLess(len(said.getvalue()), 600)
+        with unittest.mock.patch("caisson.scenes.main", main):
+            with unittest.mock.patch.dict(os.environ, {disk.TRACEBACK: "1"}):
+                with self.assertRaises((LookupError, ArithmeticError, RuntimeError)):
+                    command_line.run_command(["scenes"], "caisson", "", GROUPS)
+        return said.getvalue()
+
+    def test_of_a_file(self) -> None:
+        """What reading a file leads to names it, and the kind."""
+        for error in (KeyError("a\nb"), OverflowError("x" * 999)):
+
+            @disk.reads
+            def read(path: Path) -> int:
+                raise error
+
+            several: Any = [self.file, self.path]
+            for paths in (self.file, several):
+                kind = rf" {self.file} is damaged or too large \({type(error).__name__}"
+                self.assertRegex(self.said(lambda _: read(paths)), kind)
+
+    def test_of_the_program(self) -> None:
+        """Any other error is a fault of the program, whatever it has read before."""
 
         def fail(_: object) -> int:
-            disk.read_text(path)
+            disk.read_text(self.file)
             raise error
 
-        for error in (KeyError("a\nb"), MemoryError(), OverflowError("x" * 999)):
-            said = io.StringIO()
-            with unittest.mock.patch("caisson.scenes.main", fail), redirect_stderr(
-                said
-            ):
-                status = command_line.run_command(["scenes"], "caisson", "", GROUPS)
-            self.assertEqual(status, 1)
-            words = (
-                rf"^scenes: .*{path} is not as it .* \({type(error).__name__}.*\)\n$"
+        for error in (KeyError("a\nb"), RuntimeError("x" * 999)):
+            text = self.said(fail)
+            self.assertRegex(
+                text, r"fault of the program itself, at test_disk.py:\d+: "
             )
-            self.assertRegex(said.getvalue(), words)
-            self.assertLess(len(said.getvalue()), 600)
-        with unittest.mock.patch("caisson.scenes.main", fail):
-            with unittest.mock.patch.dict(os.environ, {command_line.TRACEBACK: "1"}):
-                with self.assertRaises(OverflowError):
-                    command_line.run_command(["scenes"], "caisson", "", GROUPS)
+            self.assertIn(f"{type(error).__name__}: ", text)
+            self.assertNotIn("damaged", text)
+
+
+class Pictures(Temporary):
+    """Texts of users in pictures."""
+
+    def test_dollars_and_long_lines(self) -> None:
+        """A dollar sign begins no formula but in the label of an axis."""
+        figure = Figure()
+        axes = figure.subplots()
+        figure.suptitle(r"$\frac$ " + 3000 * "long ")
+        axes.set_title(r"5 $ to $x_$")
+        axes.plot([1, 2], label=r"$\a$")
+        axes.legend(title="$^$")
+        axes.barh([1], [1])
+        axes.set_yticks([1], [r"$\sqrt$"])
+        axes.set_xlabel("$q_c$")
+        figure.set_layout_engine("tight")
+        self.assertTrue(disk.save(figure, self.path / "a.png").is_file())
+        disk.save_pages([figure], self.path / "a.pdf")
+        self.assertTrue(axes.xaxis.label.get_parse_math())
+
+
+class Streams(Temporary):
+    """Standard output that takes no text."""
+
+    def test_full_and_closed(self) -> None:
+        """A list that is cut off is a failure."""
+        command = f"{ROOT}/scripts/caisson"
+        for words in ("scenes >/dev/full", "scenes >&-", "cpt --help >&-"):
+            with self.subTest(words):
+                done = subprocess.run(
+                    f"{command} {words}", shell=True, text=True, capture_output=True
+                )
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, r"\A.*No space left on device.*\n\Z")
+        words = f"{command} scenes 2>&- <&-"
+        text = subprocess.check_output(words, shell=True, text=True)
+        self.assertIn("tutorial.prm", text)
 
 
 if __name__ == "__main__":

@@ -145,6 +145,35 @@ class Product(unittest.TestCase):
         self.assertLessEqual(lines, MOST_LINES)
 
 
+class CurrentFolder(unittest.TestCase):
+    """Nothing is taken from the current folder that the command does not name."""
+
+    def test_nothing_is_imported(self) -> None:
+        """Neither modules, by an empty entry of PYTHONPATH too, nor settings."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for module in ("numbers", "csv", "caisson/__init__", "sitecustomize"):
+                path = folder / f"{module}.py"
+                path.parent.mkdir(exist_ok=True)
+                path.write_text("open('RAN', 'w')\\n", encoding="utf-8")
+            (folder / "matplotlibrc").write_text("nonsense: 1\\n", encoding="utf-8")
+            for command, path_of_python in (
+                ("scripts/caisson cpt", ""),
+                ("scripts/caisson cpt", ":/nowhere::"),
+                ("scripts/lab", "/nowhere:"),
+                ("tools/workshop", ":"),
+            ):
+                done = subprocess.run(
+                    f"{ROOT}/{command} --help".split(),
+                    cwd=folder,
+                    env={**os.environ, "PYTHONPATH": path_of_python},
+                    capture_output=True,
+                    text=True,
+                )
+                self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+                self.assertFalse((folder / "RAN").exists(), command)
+
+
 class Command(unittest.TestCase):
     """scripts/caisson, beside scripts that only say their names."""
 

@@ -82,6 +82,7 @@ def cells_of(path: Path) -> list[tuple[int, list[str]]]:
     return [(n, row) for n, row in rows if any(row) and not row[0].startswith("#")]
 
 
+@disk.reads
 def read(path: Path, error: int) -> list[Position]:
     """Return the positions of a table. error: wanted, in %, where a row has none.
     Raises InputError."""

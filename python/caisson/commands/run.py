@@ -157,7 +157,7 @@ def reporting(directory: Path | None) -> Iterator[None]:
             begin, history = time.monotonic(), directory / "history.csv"
             before, size = size, history.stat().st_size if history.is_file() else -1
             if size != before:
-                python = ["nice", sys.executable, "-m", "caisson"]
+                python = ["nice", sys.executable, "-P", "-m", "caisson"]
                 subprocess.run(
                     [*python, "report", str(directory)],
                     env={**os.environ, "PYTHONPATH": str(PACKAGES)},

@@ -242,6 +242,7 @@ def above_of(text: str) -> dict[str, float]:
     return found
 
 
+@disk.reads
 def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     """Return the test of a file. Without friction only depth and q_c are read, and
     nothing else is looked at. Raises InputError, with the row."""

@@ -71,6 +71,7 @@ def read_4(
     return nodes, cells
 
 
+@disk.reads
 def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
     """Return the mesh of a text file of Gmsh, format 2.2 or 4.1, with all of its
     triangles and quadrilaterals of first order, the surface of each [m], and the names

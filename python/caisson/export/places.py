@@ -14,6 +14,7 @@ from caisson.export.state import TOLERANCE, State
 COLUMNS = ("r_m", "z_m")
 
 
+@disk.reads
 def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
     """Return the points [n, 2] (m) of a table, and the line of each. Raises
     ResultsError where a row has no two numbers."""

@@ -230,6 +230,7 @@ def rows_of(path: Path) -> tuple[Rows, int]:
     )
 
 
+@disk.reads
 def read(path: Path) -> Log:
     """Return the log of a file. Raises InputError."""
     rows, head = rows_of(path)
