@@ -38,6 +38,6 @@ def write(
     rows: Sequence[Sequence[Any]],
 ) -> None:
     """Write KIND.png, table.csv and table.md, and print the table."""
-    figure.tight_layout()
+    figure.set_layout_engine("tight")
     write_picture(kind, results / f"{kind}.png", figure)
     write_table(results, columns, rows)

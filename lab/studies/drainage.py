@@ -97,7 +97,7 @@ def draw(
         color="0.3",
         ls="--",
         lw=1,
-        label=f"DeJong & Randolph (2012), $V_{{50}}$ = {V50:g}, c = {POWER:g}",
+        label=f"DeJong & Randolph (2012), V₅₀ = {V50:g}, c = {POWER:g}",
     )
     axes.axhline(1, color="C2", lw=1, label="Level = drained")
     axes.axhline(undrained / drained, color="C3", lw=1, label="Level = undrained")

@@ -109,7 +109,7 @@ def draw(study: Study, found: Found, options: Options) -> None:
     axes.set_title(study.title, fontsize=10)
     axes.grid(color="0.9", which="both")
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    figure.tight_layout()
+    figure.set_layout_engine("tight")
     path = options.results / f"accuracy_{study.id}.png"
     disk.save(figure, path, dpi=130)
     print(f"accuracy: {short(path)}")

@@ -297,7 +297,7 @@ def plot(file: Path) -> None:
     figure.suptitle(
         "Hypoplastic sand. Lines: reference integration; dots: the kernels", fontsize=10
     )
-    figure.tight_layout()
+    figure.set_layout_engine("tight")
     disk.save(figure, file, dpi=110)
 
 

@@ -163,9 +163,7 @@ def draw(
     for top, bottom in CLAY:
         axes.axhspan(top, bottom, color="0.88")
     for (rigidity, q_c), color in zip(curves.items(), ("C0", "C2", "C1")):
-        axes.plot(
-            q_c, depth, color=color, label=f"computed, clay of G/s$_u$ = {rigidity}"
-        )
+        axes.plot(q_c, depth, color=color, label=f"computed, clay of G/sᵤ = {rigidity}")
     axes.plot(measured[1], measured[0], "k.-", lw=0.8, label="measured")
     for value in (SAND, CLAY_ALONE):
         axes.axvline(value, color="0.6", lw=0.8, ls="--")

@@ -166,7 +166,7 @@ def draw(path: Path, rows: Sequence[Row]) -> Path:
     )
     axes.set_xlabel("required suction / allowable suction, the largest on the way")
     axes.legend(fontsize=8, loc="lower right")
-    figure.tight_layout()
+    figure.set_layout_engine("tight")
     return disk.save(figure, path)
 
 

@@ -262,5 +262,5 @@ def draw(
     shown = [p.estimate for p in panels if p.estimate in names]
     note = "; ".join(names[quantity] for quantity in shown)
     legend_of(figure, ground, every, note, tip)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.set_layout_engine("tight", rect=(0, 0.06, 1, 1))
     return disk.save(figure, path)

@@ -116,7 +116,7 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
         over_depth(axes, label, "penetration of the tip (m)")
         axes.legend(fontsize=8)
     in_units(figure, shown)
-    figure.tight_layout()
+    figure.set_layout_engine("tight")
     return disk.save(figure, picture)
 
 

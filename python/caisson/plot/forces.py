@@ -264,7 +264,7 @@ def draw(path: Path, run: Results) -> Path | None:
         figure = Figure(figsize=(7, 4))
         figure.suptitle(run.title, fontsize=10)
         draw_over_time(figure.subplots(), history)
-        figure.tight_layout()
+        figure.set_layout_engine("tight")
     else:
         figure = draw_over_depth(run, depth)
     in_units(figure, run.shown)

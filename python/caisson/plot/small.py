@@ -60,4 +60,4 @@ def with_note(figure: Figure, note: str) -> None:
     """Write a note below the panels of a figure."""
     figure.text(0.5, 0.008, note, ha="center", fontsize=8, color="0.3", wrap=True)
     room = 0.015 + 0.02 * len(note.splitlines())
-    figure.tight_layout(rect=(0, room, 1, 1))
+    figure.set_layout_engine("tight", rect=(0, room, 1, 1))

@@ -19,8 +19,8 @@ from caisson.shown import Units
 # part of the name of a column: its label, empty where that depends on the soil, and
 # what stands beside it
 STRESSES = {
-    "normal_stress": ("", "$K_0\\,\\sigma'_{v0}$"),
-    "shear_stress": ("shear stress, upward", "$K_0\\,\\sigma'_{v0}\\,\\tan\\delta$"),
+    "normal_stress": ("", "K₀ σ′ᵥ₀"),
+    "shear_stress": ("shear stress, upward", "K₀ σ′ᵥ₀ tan δ"),
 }
 AT_FRAME = 0.05  # m, between a penetration and its frame
 AT_REST: dict[str, Any] = {"color": "0.35", "linewidth": 1.4, "linestyle": "--"}
