@@ -95,6 +95,34 @@ class Governing(WithPage):
             words = f"reverse bearing of the plug, factor {factor}"
             self.check(run, limits.REVERSE_BEARING, depth, words)
 
+    def test_crust(self) -> None:
+        """Of 20 kPa over 2 kPa at 3 m, a block of 20 (3 - h) 4 / 9.92 and 12.72 kPa
+        below it, with h 4 / 9.92, bear 10 (h - 1.5) kPa 1.5 times down to 2.62 m; the
+        soft clay is named in the verdict, in the tables, and in run.json."""
+        soft = {**CLAY, "cohesion_Pa": 2e3, "top_depth_m": 3.0}
+        run = self.clay([{**CLAY, "cohesion_Pa": 20e3}, soft], {})
+        below = "the soft layer below governs, from 3 m"
+        words = f"reverse bearing of the plug, factor 1.5: {below}"
+        self.check(run, limits.REVERSE_BEARING, 2.62, words)
+        self.assertIn(f"({words})", verdict.verdict_of(run).text)
+        page = (self.path / "report.html").read_text(encoding="utf-8")
+        self.assertGreaterEqual(page.split("<script")[0].count(below), 4)
+        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual(known["limits"][-1]["soft_layer_top_m"], 3)
+        found = self.installation(run)
+        self.assertIn(below, found.governing_in_words(2))
+        self.assertNotIn("soft", found.governing_in_words(-1))
+
+    def test_end_in_the_first_row(self) -> None:
+        """Suction that is too much from the first row on ends there, and not at the
+        decimeter above."""
+        run = self.run_of(entries={"Water/Largest suction": "1e3"})
+        at = np.array([2.36, 2.5])
+        found = installation.installation_of(run, installation.Rate(), at)
+        assert found is not None
+        ended = verdict.end_of_suction(run, found)
+        self.assertEqual(ended, (2.36, limits.PUMP))
+
     def test_lift(self) -> None:
         """3 m of clay of 2 kN/m3 are lifted off the sand by 6 kPa, the adhesion of 4 *
         1 kPa / 9.92 m for each meter above 3 m, and the strength of 5 kPa below the

@@ -14,6 +14,9 @@ from caisson.design.plug_stability import (
     REVERSE_BEARING,
     allowable,
     bearing_factor,
+    failure,
+    reverse_bearing,
+    uncovered,
 )
 
 SKIRT = Skirt(6, 0.1, 0, 0)  # 4 / D_i = 0.689655 1/m
@@ -58,6 +61,47 @@ class Plug(unittest.TestCase):
         )
         lifted = found[LIFT] / 1e3
         np.testing.assert_allclose(lifted, [nan, 65.379, 51.586, 51.586], rtol=1e-4)
+
+    def test_crust(self) -> None:
+        """The block below the tip comes out of the crust: at 2.35 m 30 2.35 + 60 0.4
+        over its side, 4 / 5.2 m, and 6 (1 + 0.2 2.75 / 5.4) 10 kPa below it. Limit
+        analysis has 185 kPa. In the soft clay the crust does not matter to N_c."""
+        skirt = Skirt(5.4, 0.1, 0, 0)
+        layers = [Layer(0, 0, 60e3, 30e3, 30e3), Layer(2.75, 0, 10e3, 5e3, 5e3)]
+        suction, top = failure(skirt, layers, 2.35)
+        self.assertAlmostEqual(suction / 1e3, 94.5 * 4 / 5.2 + 66.111, places=2)
+        self.assertEqual(top, 2.75)
+        suction, top = failure(skirt, layers, 2.8)
+        self.assertAlmostEqual(suction / 1e3, 82.75 * 4 / 5.2 + 66.222, places=2)
+        self.assertTrue(np.isnan(top))
+
+    def test_limit_analysis(self) -> None:
+        """Suctions over the strength at the tip, by scripts/lab plug-lift --cells 8
+        --extent 8, for a thin wall: never more than 5 % above."""
+        for h, adhesion, ratio, below, limit in (
+            *((0.5, 1, 0.1, 0, 3.22), (0.5, 1, 0.25, 0.1, 5.12)),
+            *((0.5, 1, 0.5, 0.5, 8.96), (0.5, 1, 0.8, 0.25, 9.65)),
+            *((0.5, 1, 0.1, 1, 7.73), (0.5, 0, 0.1, 0, 1.13)),
+            *((0.5, 0, 0.25, 0.5, 4.92), (0.5, 0, 0.8, 0.25, 7.31)),
+            *((0.5, 1, 1.25, 0, 12.16), (0.5, 1, 6, 0.25, 11.73)),
+            # soft clay above a tip that is just in stiff clay does not hold that down
+            *((1, 0, 10, -0.05, 6.74), (2.5, 0, 10, -0.05, 7.04)),
+            *((2.5, 0, 10, -0.25, 7.91), (2.5, 0, 2, -0.05, 9.27)),
+        ):
+            at_tip, other = (1, ratio) if below >= 0 else (1 / ratio, 1)
+            layers = [
+                Layer(0, 0, at_tip, adhesion * at_tip, 0),
+                Layer(h + below, 0, other, adhesion * other, 0),
+            ]
+            found = reverse_bearing(Skirt(1, 0, 0, 0), layers, h) / limit
+            self.assertTrue(0.5 < found < 1.05, (h, adhesion, ratio, below, found))
+
+    def test_clay_below_sand(self) -> None:
+        """Within a diameter below a tip in sand, it is covered by no limit."""
+        layers = [Layer(0, 1e4, 0, 0, 0), Layer(4, 6e3, 9e3, 0, 0)]
+        for depth, tops in ((1.0, []), (3.0, [4]), (5.0, [])):
+            found = uncovered(Skirt(2, 0, 0, 0), layers, np.array([depth]))
+            self.assertEqual(found, tops)
 
     def test_the_last_clay_counts(self) -> None:
         """Clay that does not reach down to sand, and sand that has none above it."""

@@ -204,7 +204,7 @@ def expected_of(run: Results) -> Expected:
         best,
         np.maximum(high, best),
         limits.allowable,
-        [limits.governing(i) for i in range(len(at))],
+        [limits.governing_in_words(i) for i in range(len(at))],
         float(run.scene["submerged_weight_N"]) / 1e3,
         plug_area(run.scene),
         source,

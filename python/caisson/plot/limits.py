@@ -23,6 +23,7 @@ from caisson.evaluation import HEAVE as HEAVE_COLUMN
 from caisson.evaluation import at_depths, pump_limit
 from caisson.plot import suction_methods, theory
 from caisson.results import Results, ResultsError
+from caisson.shown import Units
 from caisson.table import write_columns
 
 LEAST_SHARE = 0.02  # of the critical gradient, below which the gradient is noise
@@ -87,6 +88,28 @@ def factors_of(run: Results) -> dict[str, float]:
 def with_factor(name: str, factor: float) -> str:
     """Return the name of a limit with its factor, if that is not 1."""
     return name if factor == 1 else f"{name}, factor {factor:g}"
+
+
+def soft_in_words(tops: np.ndarray, shown: Units) -> str:
+    """Return which soft layers below the tip govern reverse bearing, by their tops [n]
+    (m), nan where the clay at the tip does; nothing where none does."""
+    places = dict.fromkeys(shown.place(top) for top in tops[np.isfinite(tops)])
+    if not places:
+        return ""
+    return f"the soft layer below governs, from {' and '.join(places)}"
+
+
+def uncovered_in_words(run: Results, at: np.ndarray) -> str:
+    """Return which clay below a tip in sand no limit covers, at depths [n] (m), in a
+    sentence; nothing without any."""
+    tops = theory.uncovered(theory.site_of(run), at)
+    if not tops:
+        return ""
+    places = " and ".join(run.shown.place(top) for top in tops)
+    return (
+        f"No limit covers the reverse bearing of the clay below (from {places}) while"
+        " the tip is in the sand above it."
+    )
 
 
 def absent_of(found: dict[str, np.ndarray]) -> list[str]:

@@ -121,6 +121,10 @@ def draw_limits(axes: Axes, run: Results, depth: np.ndarray, found: Table) -> li
     factors, beyond = limits.factors_of(run), list[str]()
     for name, limit in found.items():
         label, known = limits.with_factor(name, factors[name]), limit[limit < np.inf]
+        if name == limits.REVERSE_BEARING:
+            tops = theory.soft_below(theory.site_of(run), depth)
+            words = limits.soft_in_words(tops, run.shown)
+            label = "\n".join(filter(None, (label, words)))
         if name == limits.LID:
             for h in depth[limit <= 0][:1]:
                 color = limits.LIMITS[name].color

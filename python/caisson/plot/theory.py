@@ -294,20 +294,42 @@ def clay_of(site: Site, deepest: float) -> Method:
     return layered.Layered(found, cone_of(site, deepest, with_clay=True))
 
 
+def known_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
+    """Return the layers of clay and sand as far down as they are known; none where not
+    all are known down to a depth (m), or of no caisson."""
+    tops = [top_of(entry) for _, entry in site.layers(np.inf)]
+    with suppress(NotApplicable):
+        skirt_of(site)
+        soils_of(site, deepest)
+        below = sorted(filter(deepest.__lt__, tops), reverse=True)
+        for end in [np.inf, *below, deepest]:
+            with suppress(NotApplicable):  # far below the tip they may be unknown
+                return clay_layers_of(site, end)
+    return []
+
+
 def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
     """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
     [n]; none without clay."""
-    try:
-        skirt, deepest = skirt_of(site), float(depth.max())
-        soils_of(site, deepest)
-    except NotApplicable:
-        return {}
-    tops = [top_of(entry) for _, entry in site.layers(np.inf)]
-    for end in [np.inf, *sorted(filter(deepest.__lt__, tops), reverse=True), deepest]:
-        with suppress(NotApplicable):  # what soil is far below the tip may be unknown
-            layers = clay_layers_of(site, end)
-            return plug_stability.allowable(skirt, layers, depth)
-    return {}
+    layers = known_layers_of(site, float(depth.max()))
+    return plug_stability.allowable(skirt_of(site), layers, depth) if layers else {}
+
+
+def uncovered(site: Site, depth: np.ndarray) -> list[float]:
+    """Return the tops (m) of the clay whose reverse bearing no limit covers, as the tip
+    is in sand above it at embedments [n]."""
+    if not (layers := known_layers_of(site, float(depth.max()))):
+        return []
+    return plug_stability.uncovered(skirt_of(site), layers, depth)
+
+
+def soft_below(site: Site, depth: np.ndarray) -> np.ndarray:
+    """Return the top of the soft layer below the tip that governs reverse bearing (m),
+    [n] at embedments [n]; nan where the clay at the tip does, or where there is none.
+    """
+    if not (layers := known_layers_of(site, float(depth.max()))):
+        return np.full(len(depth), np.nan)
+    return plug_stability.soft_below(skirt_of(site), layers, depth)
 
 
 def adhesion(scene: Scene, entry: Scene, side: str) -> float:

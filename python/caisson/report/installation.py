@@ -15,7 +15,7 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run, sinks_on
 from caisson.paths import INSTALLED
-from caisson.plot import design, limits
+from caisson.plot import design, limits, theory
 from caisson.plot.forces import penetration
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
@@ -72,6 +72,8 @@ class Installation:
     excess: float | None = None  # kN, of the weight at the end, without any suction
     limits: dict[str, np.ndarray] = field(default_factory=dict)  # by their factors
     factors: dict[str, float] = field(default_factory=dict)
+    # m, top of the soft layer below the tip that governs reverse bearing, nan if none
+    soft_below: np.ndarray = field(default_factory=lambda: np.empty(0))
     lid: float | None = None  # m, the depth at which the plug would meet it
     gradient: np.ndarray = field(default_factory=lambda: np.empty(0))  # over critical
     heave: np.ndarray = field(default_factory=lambda: np.empty(0))  # m
@@ -107,6 +109,21 @@ class Installation:
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""
         return limits.governing(self.limits, i)
+
+    def governing_in_words(self, i: int) -> str:
+        """Return which limit is the least at a depth, and the soft layer below the tip
+        if that governs it."""
+        name = self.governing(i)
+        return f"{name}{self.remark(name, i)}"
+
+    def remark(self, name: str, i: int | None = None) -> str:
+        """Return what to add to the name of a limit at a depth, or at all depths: the
+        soft layers below the tip that govern it."""
+        if name != limits.REVERSE_BEARING:
+            return ""
+        tops = self.soft_below if i is None else self.soft_below[i : i + 1]
+        words = limits.soft_in_words(tops, self.shown)
+        return f": {words}" if words else ""
 
     def named(self, name: str) -> str:
         """Return the name of a limit with its factor, if that is not 1."""
@@ -181,6 +198,7 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
         found.lid = limits.lid_depth(at, factored)
     if found.has_suction:
         found.limits, found.factors = limits.limits_of(run, at), factors
+        found.soft_below = theory.soft_below(theory.site_of(run), at)
     found.rest = rest_of_run(run.history)
     if scene.get("diameter_m"):
         if "seepage_flow_m3_s" in numbers:
@@ -283,7 +301,7 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     margins = {shown.named("depth (m)"): depth}
     add(margins, "required suction (kPa)", found.required)
     add(margins, "allowable (kPa)", found.allowable)
-    margins["governed by"] = [found.governing(i) for i in n]
+    margins["governed by"] = [found.governing_in_words(i) for i in n]
     add(margins, "required / allowable", found.utilization)
     add(margins, "exit gradient / critical", found.gradient)
     add(margins, "plug heave (m)", found.heave)
@@ -377,13 +395,13 @@ def quarters_of(
             cell = needs[i] if known.required[i] > NOTHING else "0 (weight suffices)"
         rows[0].append(cell)
     for name, values in sorted(known.limits.items(), key=lambda x: ORDER.index(x[0])):
-        label = known.named(name)
+        label = known.named(name) + known.remark(name)
         if name == limits.LID and found.lid is not None:
             label += f": at about {shown.place(found.lid, 1)}"
         rows.append([label, *cells_of(known, values, places)])
     rows += [[words] + ["-"] * len(wanted) for words in limits.absent_of(known.limits)]
     least = [
-        "" if i is None or known.required[i] <= NOTHING else known.governing(i)
+        "" if i is None or known.required[i] <= NOTHING else known.governing_in_words(i)
         for i in places
     ]
     rows.append(["governed by", *least])

@@ -257,6 +257,7 @@ def of_installation(
                 (
                     limits.sources_of(run, found.limits),
                     limits.rings_in_words(run, found.depth),
+                    limits.uncovered_in_words(run, found.depth),
                 ),
             )
         ),

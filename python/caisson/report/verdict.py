@@ -75,7 +75,8 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
             found, end = finer, sharper
     name = found.governing(end[1])
     words = found.named(name).replace(name, REASONS.get(name, name))
-    return limits.rounded_down(end[0]), words
+    depth = max(limits.rounded_down(end[0]), float(found.depth[0]))
+    return depth, words + found.remark(name, end[1])
 
 
 def beside_gradient(run: Results) -> str:
@@ -107,7 +108,8 @@ def share_of_allowable(found: Installation) -> str:
     if not (shares > 0).any():
         return ""
     i = int(np.nanargmax(shares))
-    name = found.named(found.governing(i))
+    name = found.governing(i)
+    name = found.named(name) + found.remark(name, i)
     return f", at most {100 * shares[i]:.0f} % of the allowable one ({name})"
 
 
@@ -201,6 +203,12 @@ def lines_of(run: Results) -> list[str]:
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
+def soft_layer_of(found: Installation, i: int) -> dict[str, float]:
+    """Return the top of the soft layer below the tip (m) if that governs at a depth."""
+    governs = bool(found.remark(found.governing(i), i))
+    return {"soft_layer_top_m": float(found.soft_below[i])} if governs else {}
+
+
 def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
     """Return required and allowable suction (Pa) and what governs it, by depth (m)."""
     found = installation.installation_of(run, Rate())
@@ -215,6 +223,7 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
             "governed_by": found.governing(i),
             "factor": found.factors[found.governing(i)],
         }
+        | soft_layer_of(found, i)
         for i, h in enumerate(found.depth)
         if found.governing(i)
     ]
