@@ -152,6 +152,24 @@ def graded(start: float, end: float, cells: int, growth: float) -> Array:
     return np.append(start + (end - start) * x[:-1], end)
 
 
+def towards(places: Array, end: float, cells: float, scale: float) -> Array:
+    """Return lines from 0 to the end (m) that contain all places [n] (m) and are dense
+    around each: there are as many cells over a length of this scale (m) as graded() has
+    with a growth of 20."""
+    steepness = np.log(20.0) / cells
+    found = [np.zeros(1)]
+    ends = np.unique([0.0, *places, end])
+    for start, stop in zip(ends, ends[1:]):
+        z = np.linspace(start, stop, 2001)
+        away = np.abs(z[:, None] - places).min(axis=1)
+        dense = 1 / (steepness * (scale / 19 + away))
+        number = np.append(0.0, np.cumsum((dense[1:] + dense[:-1]) / 2 * np.diff(z)))
+        count = max(round(number[-1]), 1)
+        lines = np.interp(np.linspace(0, number[-1], count + 1), number, z)
+        found.append(np.append(lines[1:-1], stop))
+    return np.concatenate(found)
+
+
 def join(*parts: Array) -> Array:
     """Return sorted lines without those that repeat."""
     lines = np.sort(np.concatenate(parts))
@@ -169,10 +187,15 @@ class Strength:
 
     surface: float = 1.0  # Pa
     gradient: float = 0.0  # Pa/m
+    # (top in m, strength in Pa) of the layers below, from the top down
+    layers: tuple[tuple[float, float], ...] = ()
 
     def at(self, depth: Array) -> Array:
-        """Return the strength there (Pa)."""
-        return self.surface + self.gradient * depth
+        """Return the strength there (Pa), at a boundary that of the upper layer."""
+        found = self.surface + self.gradient * depth
+        for top, strength in self.layers:
+            found = np.where(depth > top, strength, found)
+        return found
 
 
 class Soil(NamedTuple):

@@ -2,17 +2,19 @@
 """The suction that lifts the plug of a caisson in undrained clay, by limit analysis.
 
 A rigid caisson is held in a half-space of clay of Tresca's law, whose strength su is
-uniform or grows with depth. Its wall is smooth or has an adhesion, and may be thin as a
-blade; its tip, if it has an area, has the same adhesion, and no gap opens anywhere. The
-suction s pulls the surface of the plug upwards. The plug cannot slide alone: the clay
-below has to follow, and flows in around the tip. So there is one limit load for both,
-which limit_analysis.py finds without a choice of mechanism. By hand it is written as
+uniform, grows with depth, or is another one from a boundary below the tip on. The wall
+is smooth or has an adhesion, and may be thin as a blade; its tip, if it has an area,
+has the same adhesion, and no gap opens anywhere. The suction s pulls the surface of the
+plug upwards. The plug cannot slide alone: the clay below has to follow, and flows in
+around the tip. So there is one limit load for both, which limit_analysis.py finds
+without a choice of mechanism. By hand it is written as
 
     s = Nc su + 4 a (h / D) su_mean,
 
 with su at the depth h of the tip, su_mean above it, the adhesion factor a and the
 diameter D inside. The wall counts with its full strength on the inside, and the outside
-of a rough wall is in Nc.
+of a rough wall is in Nc. The method of caisson/design/plug_stability.py stands beside
+the limit.
 
 **Weight does not matter.** The power of the weight on velocities without change of
 volume is that of the pressure of a fluid of the same weight on the surface, which is
@@ -30,11 +32,16 @@ Meshes are graded towards the tip and have n / 4, n / 2 and n cells inside, at t
 surface and at the wall. The order of the differences is between one and two.
 """
 import argparse
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from scipy import sparse
 
+from caisson.design.clay import Layer
+from caisson.design.cone import Skirt
+from caisson.design.plug_stability import reverse_bearing
 from lab.verification.limit_analysis import (
     Mesh,
     Strength,
@@ -43,6 +50,7 @@ from lab.verification.limit_analysis import (
     join,
     limit_load,
     soil_of,
+    towards,
 )
 from lab.verification.options import declare
 
@@ -57,8 +65,11 @@ class Caisson:
     radius: float = 1.0  # inside (m)
 
 
-def mesh_of(caisson: Caisson, n: int, extent: float) -> Mesh:
-    """Return the mesh around a caisson, whose cells are small at the tip.
+def mesh_of(
+    caisson: Caisson, n: int, extent: float, tops: Sequence[float] = ()
+) -> Mesh:
+    """Return the mesh around a caisson, whose cells are small at the tip and at the
+    tops (m) of layers.
 
     n: cells inside, at the surface; extent: of the soil outside and below the tip, over
     the radius.
@@ -74,6 +85,9 @@ def mesh_of(caisson: Caisson, n: int, extent: float) -> Mesh:
         graded(tip, 0.0, n, growth),
         graded(tip, tip + far, 3 * n // 2, 3 * growth),
     )
+    if tops:
+        places = [tip, *(x for x in tops if x < tip + far)]
+        z = towards(np.unique(places), tip + far, n, inner)
     mesh = Mesh(r, z)
     if caisson.thickness > 0:
         center = mesh.corner + mesh.size / 2
@@ -86,7 +100,8 @@ def mesh_of(caisson: Caisson, n: int, extent: float) -> Mesh:
 
 def lift(caisson: Caisson, strength: Strength, n: int, extent: float = 4.0) -> float:
     """Return the suction that lifts the plug (Pa), by a mesh of n cells inside."""
-    mesh = mesh_of(caisson, n, extent)
+    tops = [top for top, _ in strength.layers]
+    mesh = mesh_of(caisson, n, extent, tops)
     r, z = mesh.place.T
     inner, tip = caisson.radius, caisson.depth
     outer = inner + caisson.thickness
@@ -116,6 +131,16 @@ def bearing_factor(load: float, caisson: Caisson, strength: Strength) -> float:
     return float((load - friction) / at_tip)
 
 
+def by_hand(caisson: Caisson, strength: Strength) -> float:
+    """Return the suction of the design method (Pa)."""
+    depth, adhesion = caisson.depth, caisson.adhesion
+    outer = 2 * (caisson.radius + caisson.thickness)
+    at_tip, mean = strength.at(depth * np.array([1.0, 0.5]))
+    layers = [Layer(0, 0, float(at_tip), adhesion * float(mean), 0)]
+    layers += [Layer(top, 0, s_u, adhesion * s_u, 0) for top, s_u in strength.layers]
+    return reverse_bearing(Skirt(outer, caisson.thickness, 0, 0), layers, depth)
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options of scripts/lab plug-lift."""
     declare(
@@ -123,30 +148,47 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         depth=([0.25, 0.5, 1.0], "of the tip (D inside)"),
         adhesion=([0, 0.5, 1.0], "over strength"),
         gradient=([0, 2.0], "of the strength (su0/D)"),
+        ratio=([1.0], "of the strength below a boundary to that at the tip"),
+        boundary=([0.0], "below the tip (D inside)"),
         thickness=(0.0, "of the wall (radii inside)"),
         cells=(16, "of the finest mesh, inside (none)"),
         extent=(4.0, "of the soil beyond the tip (radii)"),
     )
 
 
-def main(options: argparse.Namespace) -> int:
-    """Print the suction that lifts the plug, and the bearing factor."""
-    n = options.cells
-    print("s / su at the tip, on three meshes and extrapolated")
-    print(" k D/su0  h/D  adhesion   coarse   medium     fine    limit      Nc")
-    for gradient in options.gradient:
+def cases_of(options: argparse.Namespace) -> Iterator[tuple[Caisson, Strength]]:
+    """Return the caissons and the clay of a table."""
+    for gradient, h, adhesion, ratio, below in product(
+        *(options.gradient, options.depth, options.adhesion),
+        *(options.ratio, options.boundary),
+    ):
         strength = Strength(1.0, gradient / 2)
-        for depth in options.depth:
-            for adhesion in options.adhesion:
-                caisson = Caisson(2 * depth, adhesion, options.thickness)
-                loads = [
-                    lift(caisson, strength, cells, options.extent)
-                    for cells in (n // 4, n // 2, n)
-                ]
-                limit = extrapolated(loads)
-                at_tip = strength.at(np.array(caisson.depth))
-                shown = "".join(f"{x / at_tip:9.3f}" for x in [*loads, limit])
-                factor = bearing_factor(limit, caisson, strength)
-                line = f"{gradient:8g}{depth:5g}{adhesion:10g}{shown}{factor:8.2f}"
-                print(line, flush=True)
+        if ratio != 1:
+            layer = 2 * (h + below), ratio * float(strength.at(np.array(2 * h)))
+            strength = replace(strength, layers=(layer,))
+        if ratio != 1 or below == options.boundary[0]:
+            yield Caisson(2 * h, adhesion, options.thickness), strength
+
+
+def main(options: argparse.Namespace) -> int:
+    """Print the suction that lifts the plug, the bearing factor, and the method."""
+    n = options.cells
+    print("s / su at the tip, on three meshes and extrapolated; ratio: of the strength")
+    print("below a boundary, which is this far below the tip")
+    heads = (
+        "k D/su0   h/D adhesion   ratio  below/D   coarse   medium     fine    limit"
+    )
+    print(f"{heads}      Nc  method  method/limit")
+    for caisson, strength in cases_of(options):
+        meshes = (n // 4, n // 2, n)
+        loads = [lift(caisson, strength, cells, options.extent) for cells in meshes]
+        limit, at_tip = extrapolated(loads), float(strength.at(np.array(caisson.depth)))
+        top, below = next(iter(strength.layers), (caisson.depth, at_tip))
+        shown = f"{2 * strength.gradient:7g}{caisson.depth / 2:6g}{caisson.adhesion:9g}"
+        shown += f"{below / at_tip:8g}{(top - caisson.depth) / 2:9.3g}"
+        shown += "".join(f"{x / at_tip:9.3f}" for x in [*loads, limit])
+        factor = bearing_factor(limit, caisson, strength)
+        method = by_hand(caisson, strength)
+        shown += f"{factor:8.2f}{method / at_tip:8.3f}{method / limit:14.2f}"
+        print(shown, flush=True)
     return 0

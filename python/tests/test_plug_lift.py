@@ -15,7 +15,13 @@ from lab.verification.limit_analysis import (
     limit_load,
     soil_of,
 )
-from lab.verification.plug_lift import Caisson, bearing_factor, extrapolated, lift
+from lab.verification.plug_lift import (
+    Caisson,
+    bearing_factor,
+    by_hand,
+    extrapolated,
+    lift,
+)
 
 
 def footing(rough: bool, gradient: float, n: int) -> float:
@@ -105,6 +111,14 @@ class PlugLift(unittest.TestCase):
         self.assertTrue(1 < thick / thin < 1.02)
         near, far = (lift(Caisson(1, 1), Strength(), 4, x) for x in (3, 4))
         self.assertAlmostEqual(near / far, 1, delta=0.01)
+
+    def test_crust(self) -> None:
+        """60 kPa over 10 kPa, 0.4 m below the tip: the design method is below."""
+        caisson = Caisson(2.35, 0.5, thickness=0.1, radius=2.6)
+        crust = Strength(60, layers=((2.75, 10),))
+        found = lift(caisson, crust, 4)
+        self.assertTrue(192 < found < 203, found)
+        self.assertTrue(0.6 < by_hand(caisson, crust) / found < 1)
 
     def test_strength_that_grows(self) -> None:
         """Strength is a scale."""
