@@ -21,9 +21,13 @@ class Flow:
     each cell and continuous."""
 
     def __init__(self, means: CellMeans, pressure: np.ndarray) -> None:
-        """pressure: excess at the points, nan of those in which no water flows."""
+        """pressure: excess at the points, nan of those in which no water flows. Cells
+        that such points share with others have no lines either: they conduct along the
+        boundary, but not across it."""
         self.corners, self.axisymmetric = means.polygons, means.axisymmetric
         flow = -means.gradients(pressure)
+        no_flow = means.of(np.isnan(pressure).astype(float)) > 0
+        flow[no_flow] = np.nan
         corner = np.round(self.corners.reshape(-1, 2), 6)
         node = np.unique(corner, axis=0, return_inverse=True)[1].ravel()
         known = np.repeat(np.isfinite(flow).all(axis=1), 4)
@@ -33,7 +37,7 @@ class Flow:
         ]
         self.at_corners = (np.stack(sums, axis=-1) / count[:, None])[node]
         self.at_corners = self.at_corners.reshape(-1, 4, 2)
-        self.at_corners[np.isnan(means.of(pressure))] = np.nan
+        self.at_corners[no_flow] = np.nan
 
     def heights(
         self, cell: np.ndarray, r: np.ndarray
