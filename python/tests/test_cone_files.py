@@ -108,8 +108,11 @@ class OfOthers(WithFiles):
             test = self.read("\n".join([*lines, *rows, ""]))
             self.assertEqual(test.measured_from, begin)
             self.assertAlmostEqual(test.depth[-1], float(rows[-1].split('"')[7]))
-        self.assertEqual(len(test.depth), 570)
-        self.assertIn("19 pushes were joined, gaps at 1.45 to 1.6 m", str(test.remarks))
+        self.assertEqual(len(test.depth), 570 - 18 * 5)
+        self.assertIn("19 pushes were joined", str(test.remarks))
+        self.assertIn("its first 0.25 m, left out: 90, those of", str(test.remarks))
+        self.assertIn("nothing was measured from 1.45 to 1.85 m", str(test.remarks))
+        self.assertEqual(len(test.gaps), 18)
 
     def test_tables(self) -> None:
         """As they come, or with the columns that the message asks for."""
@@ -264,10 +267,10 @@ class Ags(WithFiles):
             (AGS + deep + OTHER, "CPT01"),
         ):
             test = self.read(text, where)
-            np.testing.assert_allclose(test.depth, [0.5, 1, 1.5, 1.7, 3, 3.2])
+            np.testing.assert_allclose(test.depth, [0.5, 1, 1.5, 1.7, 3.2])
             said = " ".join(test.remarks)
-            self.assertIn("3 pushes were joined, gaps at 1.7 to 3 m", said)
-            self.assertIn("has reached, left out: 1, those of", said)
+            self.assertIn("3 pushes were joined", said)
+            self.assertIn("takes load, its first 0.25 m, left out: 2, those of", said)
         self.refused(AGS + deep + OTHER, "4 tests: CPT01/1, .*--location 'CPT01'")
         test = self.read(AGS + deep, "CPT01/3")
         self.assertEqual((test.measured_from, test.above), (3, "ASSUMED"))

@@ -310,6 +310,71 @@ class Rules(WithFiles):
         with self.assertRaisesRegex(InputError, r"row 2: .* \(199 more rows are wrong"):
             self.of(rows)
 
+    def test_soft_soil_is_no_missing_load(self) -> None:
+        """Peat of a q_c of about 0, or below by a drift, counts, in sand and at the
+        mudline; a rod change in sand does not."""
+        for begin, end, kept in ((50, 100, True), (0, 60, True), (90, 92, False)):
+            rows = self.rows(0.0)
+            for i in range(begin, end):
+                rows[i][1:3] = [(0.04, -0.03, 0.002)[i % 3], 3]
+            for i in range(end, end + (40 if begin == 0 else 0)):
+                rows[i][1] = 0.1
+            test = self.of(rows)
+            self.assertEqual(len(test.depth), 200 if kept else 199)
+            if kept:
+                peat = test.resistance[begin:end]
+                self.assertEqual((peat.min(), np.median(peat)), (0, 2e3))
+                self.assertIn(
+                    "rows of soft soil with a q_c of about 0", str(test.remarks)
+                )
+
+    def test_zeroed_on_deck(self) -> None:
+        """The water at the mudline is found, or given, and taken off: of u_2, and of
+        q_c where that has it, too."""
+        depth, ratio = 20.0, 0.8
+        for strength, share in ((5, 0.55), (0.5, 0.4), (400, 0.0)):
+            rows = []
+            for i in range(400):
+                z = i / 50
+                s = strength + 2 * z * (strength < 100)
+                u = 9.81 * (z + depth) + share * 14 * s
+                total = 14 * s + 15.8 * z + 9.81 * depth
+                friction = s / 2 if share else 0.005 * total
+                rows.append([z, (total - (1 - ratio) * u) / 1e3, friction, u])
+            true = [row[1] - ratio * 9.81 * depth / 1e3 for row in rows]
+            for how in ({"zeroed_on_deck": "20m"}, {"zeroed_on_deck": ""}):
+                test = self.of(rows, **how)
+                assert test.pore_pressure is not None
+                given = bool(how["zeroed_on_deck"])
+                near = 0.2e3 if given else 8e3
+                np.testing.assert_allclose(
+                    test.resistance, 1e6 * np.array(true), atol=near
+                )
+                wanted = [1e3 * (row[3] - 9.81 * depth) for row in rows]
+                np.testing.assert_allclose(test.pore_pressure, wanted, atol=near)
+                first = "GIVEN" if given else "ASSUMED"
+                said = f"{first}: readings were set to 0 on deck"
+                self.assertTrue(test.remarks[0].startswith(said), test.remarks)
+            self.assertFalse(cone_file.is_plain(self.path))
+            raw = self.of(rows, zeroed_on_deck="0")
+            self.assertAlmostEqual(raw.resistance[9], 1e6 * rows[9][1], delta=200)
+        for row, x in zip(rows, true):
+            row[1] = x  # of which only u_2 was not set to 0
+        for row in rows[:200]:
+            row[1:3] = [0.05, 1]
+        test = self.of(rows)
+        self.assertAlmostEqual(test.resistance[9], 0.05e6, delta=1)
+        self.assertNotIn("from q_c", test.remarks[0])
+        for words in ("deep", "-3", "20 kPa"):
+            with self.assertRaisesRegex(InputError, "--zeroed-on-deck: .*; write 20m"):
+                self.of(rows, zeroed_on_deck=words)
+        plain = self.of(self.rows(0.0))
+        self.assertEqual(plain.remarks, ())
+        stiff = [[z / 50, 0.9, 30, 420 + 0.2 * z] for z in range(400)]
+        test = self.of(stiff)
+        self.assertAlmostEqual(test.resistance[0], 0.9e6)
+        self.assertIn("is that of clay; if readings were set to 0", test.remarks[0])
+
     def test_friction_in_few_rows(self) -> None:
         """It says nothing of the others."""
         rows = self.rows()

@@ -5,26 +5,30 @@ import contextlib
 import csv
 import io
 import itertools
+import re
 import unittest
 import warnings
+from collections.abc import Callable
 from typing import TextIO, cast
 from math import inf, log10
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 from scipy.optimize import brentq
 
 from caisson import __main__ as program
 from caisson.terminal import PlainText
 from caisson.design import cone_texts as tables
 from caisson.paths import SCENES
-from caisson.suggest import cone, sand
+from caisson.suggest import band, cone, sand
 from caisson.suggest.entry import SuggestError
 from caisson.disk import InputError
 from caisson.design import cone_file
 from caisson.design import cone_layers as layers
 from caisson.design import correlations
 from caisson.design import interpretation
-from caisson.design.cone_estimates import K0, REFERENCE, WEIGHT, reference_moduli
+from caisson.design.cone_estimates import K0, REFERENCE, RESISTANCE, WEIGHT, Estimate
+from caisson.design.cone_estimates import reference_moduli
 from caisson.design.correlations import (
     ANGLE,
     BEST,
@@ -35,6 +39,7 @@ from caisson.design.correlations import (
     STRENGTH,
 )
 from caisson.design.density import bolton_angle
+from caisson.design.expression import value_at
 from caisson.design.ground import (
     ATMOSPHERE,
     Ground,
@@ -296,14 +301,17 @@ class Layers(WithFiles):
                 total += len(parts) * shortest * layers.STEP**2 / 2
                 if total < best:
                     best, places = total, edges[:-1]
-        self.assertEqual(layers.divide(x, shortest, most), places)
+        self.assertEqual(
+            layers.divide(layers.costs(x, shortest), shortest, most), places
+        )
         self.assertEqual(places, [0, 3, 7, 10])
 
     def test_step_that_counts(self) -> None:
         """Two layers of the least thickness differ by STEP or are one."""
         for share, starts in ((0.9, [0]), (1.1, [0, 10])):
             x = np.repeat([1.0, 1.0 + share * layers.STEP], 10)
-            self.assertEqual(layers.divide(x, 10, 5), starts)
+            found = layers.divide(layers.costs(x, 10), 10, 5)
+            self.assertEqual(found, starts)
 
     def test_example(self) -> None:
         """Loose sand, from 3 m dense sand, with a lens of silt."""
@@ -348,13 +356,83 @@ class Layers(WithFiles):
         )
 
     def test_gaps(self) -> None:
-        rows = [f"{z / 20:g},5,30,0" for z in (*range(1, 60), *range(90, 120))]
-        found = interpretation.interpret(
-            self.written(HEAD + "\n".join(rows)), options()
+        """No layer lies in one: those beside it meet in its middle; scene and remarks
+        say what was not measured."""
+        for above, below in ((5, 15), (2, 15), (15, 4)):
+            rows = [
+                f"{z / 20:g},{above if z < 60 else below},{30 if above > 2 else 12},0"
+                for z in (*range(1, 60), *range(90, 160))
+            ]
+            path = self.written(HEAD + "\n".join(rows))
+            found = interpretation.interpret(path, options())
+            tops = [e.layer.top for e in found.layers]
+            self.assertEqual([t for t in tops if 2.9 < t < 4.6], [3.73])
+            wanted = "ASSUMED: nothing was measured from 2.95 to 4.5 m; the soil"
+            self.assertTrue(tables.remarks(found)[0].startswith(wanted))
+            scene = cone.layers_of(found, 2.0, "density")
+            for i, (layer, top) in enumerate(zip(scene, tops)):
+                words = " ".join(entry.remark for entry in layer.entries)
+                is_beside = 3.73 in tops[i : i + 2]
+                wanted = "ASSUMED from .* m, where nothing was measured; FROM CPT"
+                self.assertEqual(re.search(wanted, words) is not None, is_beside, top)
+
+    def test_begins_below_a_boundary(self) -> None:
+        """A boundary that would leave a layer without rows is none."""
+        rows = "".join(
+            f"{0.5 + z / 50:g},{0.05 if z < 4 else 5},0.5\n" for z in range(99)
         )
-        remarks = [r for r in tables.remarks(found) if r.startswith("no row lies")]
-        wanted = "no row lies between 2.95 and 4.5 m: the soil there is unknown"
-        self.assertEqual(remarks, [wanted])
+        path = self.written("depth_m,qc_MPa,fs_kPa\n" + rows.replace("5,0.5", "5,45"))
+        found = interpretation.interpret(path, options())
+        for e in found.layers:
+            self.assertTrue(e.layer.rows.any())
+        self.assertAlmostEqual(found.layers[-1].values[RESISTANCE].best, 5e6)
+
+    def test_thin_strips_count(self) -> None:
+        """Strips of other soil below 0.1 m stay in the estimate; a lens is named with
+        its resistance."""
+        for width, low, best in ((4, 10e6, 16e6), (10, 10e6, 10e6)):
+            rows = []
+            for i in range(300):
+                is_strip = i > 100 and i % (2 * width) < width + (width == 4)
+                q, ratio = (16, 0.05) if is_strip else (10, 0.008)
+                rows.append(f"{i / 50:g},{q},{1e3 * q * ratio:g}")
+            path = self.written("depth_m,qc_MPa,fs_kPa\n" + "\n".join(rows))
+            found = interpretation.interpret(path, options("--tops", "0,2"))
+            value = found.layers[1].values[RESISTANCE]
+            self.assertAlmostEqual(value.best, best)
+            said = "\n".join(tables.remarks(found))
+            self.assertEqual("m with a q_c of 16 MPa" in said, width == 10)
+
+    def test_seam_of_clay(self) -> None:
+        """It is a layer, of the trough of its readings, and the same layers are found
+        for a caisson that does not reach the end of the test."""
+        z = np.arange(0, 14, 0.02)
+        for top, bottom, spread, strength in (
+            (3.2, 3.55, 4, 60),
+            (3.2, 3.4, 2, 60),
+            (5.02, 5.62, 5, 35),
+        ):
+            is_clay = (z >= top) & (z < bottom)
+            sand = 22.5e3 * (np.maximum(5.7 * z, 1) / 100) ** 0.46
+            tip = np.where(is_clay, 14 * strength + 19.3 * z, sand)
+            tip = np.exp(gaussian_filter1d(np.log(tip), spread))
+            ratio = gaussian_filter1d(np.where(is_clay, 4.5, 0.6), spread) / 100
+            rows = zip(z, tip / 1e3, tip * ratio)
+            text = "\n".join(",".join(f"{x:.5g}" for x in row) for row in rows)
+            path = self.written("depth_m,qc_MPa,fs_kPa\n" + text)
+            whole, part = (
+                interpretation.interpret(path, options(), end) for end in (None, 7.5)
+            )
+            [seam] = [e for e in whole.layers if e.layer.kind == "clay"]
+            self.assertAlmostEqual(seam.layer.top, top, delta=0.1)
+            self.assertAlmostEqual(seam.layer.bottom, bottom, delta=0.1)
+            found = seam.values[STRENGTH].best / 1e3
+            self.assertAlmostEqual(found / strength, 1, delta=0.15)
+            self.assertEqual({e.layer.kind for e in whole.layers}, {"sand", "clay"})
+            for one, other in zip(whole.layers, part.layers):
+                self.assertEqual(one.values, other.values)
+                self.assertEqual(one.layer.top, other.layer.top)
+            self.assertTrue(all(e.layer.top < 7.5 for e in part.layers))
 
     def test_given_soil(self) -> None:
         """Another kind than the test says is reported."""
@@ -378,8 +456,8 @@ class Layers(WithFiles):
         sparse = self.written(HEAD + "0.1,2,20,0\n10,5,30,0\n20,9,40,0\n")
         with self.assertRaisesRegex(InputError, "no row .* choose other --tops"):
             interpretation.interpret(sparse, options("--tops", "0,3,7"))
-        with self.assertRaisesRegex(InputError, "no row .* give --tops of your own"):
-            interpretation.interpret(sparse, options())
+        for e in interpretation.interpret(sparse, options()).layers:
+            self.assertTrue(e.layer.rows.any())
         many = ",".join(str(i) for i in range(21))
         for text in ("1,2", "0,3,2", many, "0,a"):
             with contextlib.redirect_stderr(io.StringIO()):
@@ -439,6 +517,105 @@ class Estimates(WithFiles):
             interpretation.interpret(EXAMPLE, options("--area-ratio", "2"))
 
 
+class Strength(WithFiles):
+    """Of clay over the depth."""
+
+    def clay(
+        self, strength: Callable[[float], float], noise: float = 0.0, end: float = 25.0
+    ) -> interpretation.Interpretation:
+        """Return a test in clay of a strength (kPa) over the depth (m)."""
+        z = np.arange(0, end + 0.01, 0.05)
+        chance = np.random.default_rng(1).standard_normal(len(z))
+        s = np.array([strength(x) for x in z]) * (1 + noise * chance)
+        u = 9.81 * z + 0.5 * 14 * s
+        tip = 14 * s + 15.8 * z - 0.2 * u
+        rows = [
+            f"{a:.2f},{b:.5f},{c:.3f},{d:.2f}"
+            for a, b, c, d in zip(z, tip / 1e3, s / 2, u)
+        ]
+        return interpretation.interpret(
+            self.written(HEAD + "\n".join(rows)), options("--unit-weight", "15.8")
+        )
+
+    def test_lines(self) -> None:
+        """Clay whose strength grows is one layer with a line, a crust another; clay of
+        one strength has none; noise does not matter."""
+        soils: list[tuple[Callable[[float], float], list[float]]] = [
+            (lambda z: 1.5 + 1.35 * z, []),
+            (lambda z: max(40 - 12 * z, 5 + 1.3 * z), [2.6]),
+            (lambda z: 5 + 2 * z if z < 5 else 40 if z < 10 else 10 + 3 * z, [5, 10]),
+            (lambda z: 60.0, []),
+        ]
+        for noise in (0.0, 0.1):
+            for strength, edges in soils:
+                found = self.clay(strength, noise)
+                self.assertEqual({e.layer.kind for e in found.layers}, {"clay"})
+                tops = [e.layer.top for e in found.layers][1:]
+                np.testing.assert_allclose(np.array(tops), edges, atol=0.5)
+                for e in found.layers:
+                    value, gradient = e.values[STRENGTH].line("best", e.layer.top)
+                    for share in (0.15, 0.5, 0.9):
+                        z = e.layer.top + share * (e.layer.bottom - e.layer.top)
+                        ratio = (value + gradient * z) / 1e3 / strength(z)
+                        self.assertAlmostEqual(ratio, 1, delta=0.03 + 0.5 * noise)
+        self.assertEqual(found.layers[0].values[STRENGTH].growth, 0)
+
+    def test_texts(self) -> None:
+        """Table, file and remarks have the line, and the modulus that a scene takes."""
+        found = self.clay(lambda z: 1.5 + 1.35 * z)
+        said = tables.text_of_test(found)
+        self.assertIn("1.17 + 1.05 d / 1.5 + 1.35 d / 2.1 + 1.89 d", said)
+        self.assertIn("0.45 + 0.405 d", said)
+        self.assertIn("Young's modulus of clay: 300 s_u, from 150 to 600", said)
+        self.assertNotIn("Schmertmann", said)
+        self.assertRegex(said, r"\| 0\.\d\d / 0\.\d\d / 0\.\d\d +\|")  # q_c (MPa)
+        tables.write(self.path, found.layers)
+        with open(self.path, encoding="utf-8") as file:
+            [row] = csv.DictReader(file)
+        self.assertEqual(row["undrained_strength_kPa_best"], "1.5")
+        self.assertEqual(row["undrained_strength_kPa_per_m_best"], "1.35")
+
+    def test_small_digits(self) -> None:
+        shown = tables.SHOWN[RESISTANCE]
+        for value, text in (
+            (17e3, "0.017 / 0.017 / 0.017"),
+            (0.16e6, "0.16 / 0.16 / 0.16"),
+            (12.34e6, "12.3 / 12.3 / 12.3"),
+            (0.0, "0.0 / 0.0 / 0.0"),
+        ):
+            self.assertEqual(
+                tables.text_of(Estimate(value, value, value), shown, 0), text
+            )
+
+    def test_scene(self) -> None:
+        """Lines of strength and modulus, of all three estimates, and a K0 that the
+        strength bears."""
+        found = self.clay(lambda z: 1.5 + 1.35 * z)
+        [layer] = cone.layers_of(found, 20.0, "density")
+        for depth in (0.0, 1.0, 13.0, 25.0):
+            stress = max((15.8e3 - 9.81e3) * depth, 1.0)
+
+            def at(name: str) -> float:
+                value = value_at(layer.value(name), depth, stress)
+                assert value is not None
+                return value
+
+            self.assertAlmostEqual(at("Cohesion"), 1500 + 1350 * depth, delta=60)
+            self.assertAlmostEqual(at("Youngs modulus") / at("Cohesion"), 300, delta=3)
+            low = 14 / 18 * at("Cohesion")
+            self.assertLessEqual(abs(1 - at("K0")) * stress, 2 * low)
+        choices = cone.choices_of(found, 20.0, None, "density")
+        for name, strength in (("low", 14 / 18), ("best", 1), ("high", 1.4)):
+            text = str(choices[name]["Soil/Layer 1/Cohesion"])
+            value = value_at(text, 10.0, 1.0)
+            assert value is not None
+            self.assertAlmostEqual(value / 15e3 / strength, 1, delta=0.03)
+        ends = band.of_choices([layer], choices)
+        self.assertEqual(
+            ends["low"][0].value("Cohesion"), choices["low"]["Soil/Layer 1/Cohesion"]
+        )
+
+
 class Scenes(WithFiles):
     """What goes into a scene and into its study."""
 
@@ -448,12 +625,12 @@ class Scenes(WithFiles):
         choices = cone.choices_of(found, 8.0, None, sand.ONE_ANGLE)
         self.assertEqual(list(choices), ["low", "best", "high"])
         for entry in choices["low"]:
-            low, best, high = (choices[name][entry] for name in choices)
+            low, best, high = (float(choices[name][entry]) for name in choices)
             self.assertTrue(low < best < high, entry)
         for entries in choices.values():
-            angle = entries["Soil/Layer 1/Friction angle"]
+            angle = float(entries["Soil/Layer 1/Friction angle"])
             wall = entries["Rigid body/Friction angle of the inner wall"]
-            self.assertAlmostEqual(wall, 2 / 3 * angle, delta=0.05)
+            self.assertAlmostEqual(float(wall), 2 / 3 * angle, delta=0.05)
         given = cone.choices_of(found, 8.0, 20.0, sand.ONE_ANGLE)
         self.assertEqual(
             set(choices["low"]) - set(given["low"]),
@@ -509,14 +686,17 @@ class Scenes(WithFiles):
         self.assertEqual(clay.value("Friction angle of the walls"), "0")
         self.assertEqual(clay.value("Adhesion factor of the walls"), "0.5")
         self.assertEqual(clay.value("Friction angle"), "0")
-        strength = found.layers[1].values[STRENGTH].best
-        self.assertAlmostEqual(float(clay.value("Cohesion")), strength, delta=100)
+        value = value_at(clay.value("Cohesion"), 5.0, 1.0)
+        assert value is not None
+        strength = found.layers[1].values[STRENGTH].best  # at the top
+        self.assertAlmostEqual(value, strength, delta=100)
         choices = cone.choices_of(found, 4.0, None, "density")
         self.assertNotIn("Soil/Layer 2/Friction angle", choices["low"])
-        self.assertLess(
-            choices["low"]["Soil/Layer 2/Cohesion"],
-            choices["high"]["Soil/Layer 2/Cohesion"],
+        low, high = (
+            value_at(str(choices[end]["Soil/Layer 2/Cohesion"]), 8.0, 1.0) or 0.0
+            for end in ("low", "high")
         )
+        self.assertLess(low, high)
 
 
 class Command(WithFiles):

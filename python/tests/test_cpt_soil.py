@@ -83,7 +83,7 @@ class Kinds(WithFiles):
         )
 
     def test_pressure_that_was_not_set_to_zero(self) -> None:
-        """It is not used, and said."""
+        """It is taken off, and the first that is said: sand is sand, and clay clay."""
         self.layered(
             *(
                 (bottom, tip, ratio, 400.0)
@@ -91,7 +91,14 @@ class Kinds(WithFiles):
             )
         )
         self.assertEqual({kind for _, kind in self.kinds()}, {"sand"})
-        self.assertIn("as if it had not been set to 0 at the mudline", self.said())
+        self.assertIn("ASSUMED: readings were set to 0 on deck", self.said()[:50])
+        rows = [
+            f"{z:.2f},{0.0138 * (5 + 2 * z) + 0.15 + 0.0034 * z:.4f},{2.5 + z:.2f},"
+            f"{196 + 9.81 * z + 7 * (5 + 2 * z):.1f}"
+            for z in np.arange(0, 10, 0.02)
+        ]
+        self.written("depth_m,qc_MPa,fs_kPa,u2_kPa\n" + "\n".join(rows))
+        self.assertEqual({kind for _, kind in self.kinds()}, {"clay"})
 
     def test_soil_that_is_given(self) -> None:
         """Of all, of a layer, and of depths, whose ends are boundaries then."""

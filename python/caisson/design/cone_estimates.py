@@ -6,10 +6,15 @@ are about one standard deviation away: the quantiles of 16 and 84 % of the rows,
 scatter of the correlation, as the root of the sum of their squares. They are estimates
 of the mean of a layer from one test, not characteristic values of a code.
 
+The strength of clay is a straight line over the depth where the rows of a layer are
+nearer to one than to one value; then low, best and high are lines, too, and the
+quantiles are those of the rows as shares of the line. The line has the least sum of
+differences as shares of it, found by weighted least squares.
+
 SI units; relative density is a share of 1, angles are in degrees.
 """
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, inf
 
 import numpy as np
@@ -40,6 +45,10 @@ CLAY_RATIOS = (150.0, 300.0, 600.0)
 Limits = tuple[float, float]
 ANY: Limits = (0.0, inf)
 LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}
+THINNEST_LINE, FEWEST_ROWS = 1.0, 10  # m, and rows of a layer with a line
+LEAST_GROWTH, LEAST_GAIN = 0.15, 0.9  # of the middle; of the difference without a line
+LEAST_SHARE, NEAREST, TINY = 0.05, 1e-3, 1e-3  # of the middle; of a row; Pa
+ROUNDS_OF_LINE = 20
 # what a kind of soil has
 HAS = {
     SAND: (DENSITY, ANGLE, MODULUS, REFERENCE, K0),
@@ -55,15 +64,23 @@ CAN = {
 
 @dataclass(frozen=True)
 class Estimate:
-    """Low, best and high."""
+    """Low, best and high: of a layer or, with a growth, at its top; with each meter
+    below it they grow by this share of themselves (1/m)."""
 
     low: float
     best: float
     high: float
+    growth: float = 0.0
 
     def at(self, end: str) -> float:
         """Return one of low, best, high."""
         return float(getattr(self, end))
+
+    def line(self, end: str, top: float) -> tuple[float, float]:
+        """Return one of them as a line over the depth below the mudline: its value
+        there and what is added with each m. top: of the layer (m)."""
+        value = self.at(end)
+        return value * (1 - self.growth * top), value * self.growth
 
 
 @dataclass(frozen=True)
@@ -91,6 +108,47 @@ def combined(
         best,
         min(best + hypot(above - best, float(np.median(high)) - best), limits[1]),
     )
+
+
+def line_of(depth: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Return the value at depth 0 and the gradient of the line through values [n]."""
+    line = np.full(len(depth), max(float(np.median(values)), TINY))
+    gradient = value = 0.0
+    for _ in range(ROUNDS_OF_LINE):
+        floor = np.maximum(line, LEAST_SHARE * float(np.median(line)) + TINY)
+        far = np.maximum(np.abs(values - line) / floor, NEAREST)
+        weight = 1 / np.sqrt(far) / floor
+        gradient, value = np.polyfit(depth, values, 1, w=weight)
+        line = value + gradient * depth
+    return float(value), float(gradient)
+
+
+def growth_in(ground: Ground, layer: Layer, values: np.ndarray) -> float:
+    """Return the growth of values [n] with depth, as a share of that at the top of a
+    layer for each m; 0 where one value says as much as a line."""
+    depth, values = ground.depth[layer.rows], values[layer.rows]
+    thick = layer.bottom - layer.top
+    if layer.is_seam or thick < THINNEST_LINE or len(depth) < FEWEST_ROWS:
+        return 0.0
+    value, gradient = line_of(depth, values)
+    middle = value + gradient * (layer.top + layer.bottom) / 2
+    if middle <= 0 or abs(gradient) * thick < LEAST_GROWTH * middle:
+        return 0.0
+    line = np.maximum(value + gradient * depth, TINY)
+    far = [float(np.median(np.abs(values - x) / line)) for x in (line, middle)]
+    is_last = layer.bottom >= ground.depth[-1]
+    if far[0] > LEAST_GAIN * far[1] or gradient < 0 and is_last:
+        return 0.0  # and no strength that falls below the test
+    # of a line that would begin or end below 0, or nearly so, a part is taken
+    most = (1 - LEAST_SHARE) * middle / (thick / 2)
+    gradient = min(max(gradient, -most), most)
+    return gradient / (middle - gradient * thick / 2)
+
+
+def along(ground: Ground, layer: Layer, growth: float) -> np.ndarray:
+    """Return what values of a growth are multiplied with at the depth of each row [n]
+    of the test, 1 at the top of the layer."""
+    return np.asarray(1 + growth * (ground.depth - layer.top))
 
 
 def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
@@ -121,10 +179,12 @@ OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
     STRENGTH: correlations.strengths_of,
     K0: lambda g, n, end: correlations.at_rest(correlations.angles_of(g, n, -end)),
 }
-OF_CLAY = OF_SAND | {
-    MODULUS: clay_moduli,
+OF_SILT = OF_SAND | {MODULUS: clay_moduli}
+OF_CLAY = OF_SILT | {
     K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
+FUNCTIONS = {SAND: OF_SAND, SILT: OF_SILT, CLAY: OF_CLAY}
+OF_STRENGTH = (STRENGTH, MODULUS)  # grow together
 
 
 def estimates_of(
@@ -139,12 +199,18 @@ def estimates_of(
         rows, values = layer.rows, {}
         for name, column in measured.items():
             values[name] = combined(column[rows], column[rows], column[rows], ANY)
-        functions = OF_CLAY if layer.kind == CLAY else OF_SAND
+        functions = FUNCTIONS[layer.kind]
+        strength = correlations.strengths_of(ground, names, BEST)
+        slope = growth_in(ground, layer, strength) if layer.kind == CLAY else 0.0
         for name in HAS[layer.kind]:
+            growth = slope if name in OF_STRENGTH else 0.0
+            share = along(ground, layer, growth)[rows]
             low, best, high = [
-                functions[name](ground, names, end)[rows] for end in ENDS.values()
+                functions[name](ground, names, end)[rows] / share
+                for end in ENDS.values()
             ]
             limits = LIMITS.get(name, ANY)
-            values[name] = combined(best, low, high, limits)
+            found_here = combined(best, low, high, limits)
+            values[name] = replace(found_here, growth=growth)
         found.append(Estimates(layer, values))
     return found

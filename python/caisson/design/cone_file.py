@@ -23,6 +23,7 @@ from caisson.design.cone_words import NEEDED, QUANTITIES
 from caisson.design.quantity import NUMBER, parts_of, value_of as quantity_of
 
 EVERY = ("depth", "qc", "fs", "u2", "rf")  # the last in place of fs
+DEEPEST_WATER = 5000.0  # m
 ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 
 
@@ -30,8 +31,9 @@ class Test(NamedTuple):
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
     each, the last two None where the file has none; what was not read, in words; the
     net area ratio of the cone, None where the file has none; the depth (m) above which
-    rows were not measured, with how they are known ("ASSUMED" or "GIVEN"); and whether
-    the resistance is q_t, which has the pore pressure in it."""
+    rows were not measured, with how they are known ("ASSUMED" or "GIVEN"); whether the
+    resistance is q_t, which has the pore pressure in it; top and bottom (m) of the gaps
+    between rows; and whether readings were set to 0 on deck, and are no more."""
 
     depth: np.ndarray
     resistance: np.ndarray
@@ -42,17 +44,8 @@ class Test(NamedTuple):
     measured_from: float = 0.0
     above: str = ""
     is_corrected: bool = False
-
-    def down_to(self, deepest: float) -> "Test":
-        """Return the rows down to a depth (m), at least two."""
-        n = max(int(np.searchsorted(self.depth, deepest, "right")), 2)
-        pressure = self.pore_pressure
-        return self._replace(
-            depth=self.depth[:n],
-            resistance=self.resistance[:n],
-            friction=None if self.friction is None else self.friction[:n],
-            pore_pressure=None if pressure is None else pressure[:n],
-        )
+    gaps: tuple[tuple[float, float], ...] = ()
+    was_zeroed: bool = False
 
 
 # ---------------------------------------------------------------- the table
@@ -142,7 +135,12 @@ def is_plain(path: Path, how: How = How()) -> bool:
     if any(form(lines) for form in forms):
         return False
     rows = cone_grid.grid_of_text(lines)[0]
-    return not cone_formats.is_ags_group(rows) and cone_grid.heads_in(rows) == 0
+    if cone_formats.is_ags_group(rows) or cone_grid.heads_in(rows) != 0:
+        return False
+    try:
+        return not read(path).was_zeroed
+    except InputError:  # of a column that is not needed
+        return True
 
 
 # --------------------------------------------------------------- the values
@@ -242,6 +240,18 @@ def above_of(text: str) -> dict[str, float]:
     return found
 
 
+def depth_of_water(text: str) -> float | None:
+    """Return the depth (m) that --zeroed-on-deck gives, None for none. Raises
+    InputError."""
+    try:
+        found = quantity_of(text, "m") if text else None
+        if found is not None and not 0 <= found <= DEEPEST_WATER:
+            raise ValueError(f"{text!r} is no depth of water")
+    except ValueError as error:
+        raise InputError(f"--zeroed-on-deck: {error}; write 20m") from error
+    return found
+
+
 @disk.reads
 def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     """Return the test of a file. Without friction only depth and q_c are read, and
@@ -258,8 +268,11 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     found.leave_out_no_load()
     found.check_order()
     found.check_ranges()
+    ratio = how.area_ratio or table.facts.area_ratio
+    was_zeroed = found.zero_at_mudline(depth_of_water(how.zeroed_on_deck), ratio)
     found.complete_friction()
     found.complete_pressure()
+    gaps = found.gaps()
     start, above = found.reach_up(above_of(how.above))
     found.say_rest()
     values = found.values
@@ -273,6 +286,8 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
         start,
         above,
         "qt" in values,
+        gaps,
+        was_zeroed,
     )
 
 

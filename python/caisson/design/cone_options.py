@@ -15,17 +15,24 @@ OPTIONS = {
         '"qc = 2 MPa, fs = 20 kPa"',
         "the soil above a test that begins below the mudline",
     ),
+    "zeroed_on_deck": (
+        "M",
+        "depth of the water, if readings were set to 0 on deck; 0: at the mudline",
+    ),
 }
 
 
 class How(NamedTuple):
     """What options say of a file: which test in it, which sheet, the names of the
-    columns, and the soil above the first row; "" for nothing."""
+    columns, the soil above the first row, and the water in which readings were set to 0
+    on deck, "" for nothing; and the net area ratio of the cone, None for nothing."""
 
     location: str = ""
     sheet: str = ""
     columns: str = ""
     above: str = ""
+    zeroed_on_deck: str = ""
+    area_ratio: float | None = None
 
     @property
     def is_said(self) -> bool:
@@ -37,15 +44,18 @@ class How(NamedTuple):
         InputError."""
         for name, value in self._asdict().items():
             if value:
+                name = name.replace("_", "-")
                 raise InputError(f"--{name} is for a cone test, --cpt")
 
 
 def add_arguments(parser: argparse.ArgumentParser | argparse._ArgumentGroup) -> None:
     """Add the options that say how a file of a cone test is read."""
     for name, (metavar, text) in OPTIONS.items():
-        parser.add_argument(f"--{name}", default="", metavar=metavar, help=text)
+        option = f"--{name.replace('_', '-')}"
+        parser.add_argument(option, default="", metavar=metavar, help=text)
 
 
 def how_of(options: argparse.Namespace) -> How:
     """Return what options say of a file."""
-    return How(*(getattr(options, name) for name in OPTIONS))
+    said = {name: getattr(options, name) for name in OPTIONS}
+    return How(**said, area_ratio=getattr(options, "area_ratio", None))

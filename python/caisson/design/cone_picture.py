@@ -20,6 +20,7 @@ from caisson.design.cone_estimates import (
     Estimates,
     growth_of,
 )
+from caisson.design.cone_rules import ASSUMED
 from caisson.design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
 from caisson.nature import WATER
 from caisson.design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
@@ -117,6 +118,7 @@ def curves_of(
         factor = panel.scale * np.interp(where, depth, panel.growth)
     if estimate is None:
         return None
+    factor = factor * (1 + estimate.growth * (where - e.layer.top))
     return where, [estimate.at(end) * factor for end in ENDS]
 
 
@@ -161,16 +163,12 @@ def draw_panel(
 
 
 def draw_unmeasured(columns: Sequence[Axes], ground: Ground) -> None:
-    """Hatch the soil above the first row that was measured."""
-    for axes in columns if ground.above else ():
-        axes.axhspan(
-            0,
-            ground.measured_from,
-            facecolor="none",
-            edgecolor="0.55",
-            hatch="//",
-            lw=0,
-        )
+    """Hatch the soil above the first row that was measured, and gaps."""
+    above = [(0.0, ground.measured_from)] if ground.above else []
+    style = {"facecolor": "none", "edgecolor": "0.55", "hatch": "//", "lw": 0}
+    for axes in columns:
+        for top, bottom in (*above, *ground.gaps):
+            axes.axhspan(top, bottom, **style)
 
 
 def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
@@ -219,8 +217,9 @@ def legend_of(
         handles.append(
             Line2D([], [], color=WATER_LINE, label="water at rest", **dashed)
         )
-    if ground.above:
-        handles.append(Patch(label=f"not measured, {ground.above}", **unknown))
+    if ground.above or ground.gaps:
+        label = f"not measured, {ground.above or ASSUMED}"
+        handles.append(Patch(label=label, **unknown))
     if tip is not None:
         label = f"skirt tip at {tip:g} m"
         handles.append(Line2D([], [], color=TIP, label=label, **dashed))

@@ -32,10 +32,19 @@ SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 START = 0.5  # m; a first row that is deeper leaves soil of which nothing is known
 FIRST = 0.5  # m of readings that tell of the soil above them
 DEEPEST = 200.0  # m
+LOAD = 0.25  # m of a push down a borehole in which the cone takes load
+GAP, SPACINGS = 0.3, 4.0  # m, and times the usual step: a wider step is a gap
+SOFT, NEAR = 0.3e6, 0.25  # Pa, the median of q_c within this distance (m) in soft soil
+OFFSET = 50e3  # Pa of u_2 at the mudline; no soil has so much
+DRIFT = 20e3  # Pa of q_c below 0
+AREA_RATIO = 0.8  # net, of a cone of which it is not known
+WEIGHT = 16e3  # N/m3, of clay near the mudline
+MOST_PRESSURE, USUAL_PRESSURE = 0.7, 0.5  # B_q
+SMOOTH = 0.015  # f_s / (q_t - u_2), less than clay has
 FEW = 0.1  # of the rows may be left out where the cone met nothing
 ENOUGH = 0.2  # of the rows must have a friction or a pressure
 REPEATED, BACK = 0.02, 0.05  # of the rows that may go back, and how far (m)
-WIDEST_STEP = 0.1  # m between pushes; more is a gap
+WIDEST_STEP = 0.1  # m of a test that begins at the mudline
 GIVEN, ASSUMED = "GIVEN", "ASSUMED"  # how the soil above the first row is known
 DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
 
@@ -168,8 +177,8 @@ class Readings:
             self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
 
     def join_pushes(self) -> None:
-        """Put the pushes of a borehole below each other, and name the gaps; rows that
-        have no order are sorted."""
+        """Put the pushes of a borehole below each other, without the rows in which the
+        cone takes load; rows that have no order are sorted."""
         if not self.table.is_sorted:
             self.keep(np.argsort(self.values["depth"], kind="stable"))
         depth, numbers = self.values["depth"], np.unique(self.push)
@@ -181,7 +190,12 @@ class Readings:
             for i in numbers
         }
         order = sorted(numbers, key=lambda i: ends[i])
-        drop, gaps = np.zeros(len(depth), dtype=bool), list[str]()
+        drop = np.zeros(len(depth), dtype=bool)
+        for this in order:
+            top, bottom = ends[this]
+            if top > START or this != order[0]:
+                loaded = top + min(LOAD, (bottom - top) / 2)
+                drop |= (self.push == this) & (depth < loaded)
         end = ends[order[0]][1]
         for before, this in zip(order, order[1:]):
             top, bottom = ends[this]
@@ -192,12 +206,13 @@ class Readings:
                     f" --location, as in --location {names[this]!r}"
                 )
             drop |= (self.push == this) & (depth <= end)
-            if top - end > WIDEST_STEP:
-                gaps.append(f"{end:g} to {top:g} m")
             end = max(end, bottom)
-        text = f"gaps at {', '.join(gaps)}" if gaps else "without a gap"
-        self.remarks.append(f"{len(order)} pushes were joined, {text}")
-        self.leave_out(drop, "rows of a push that the one above it has reached")
+        self.remarks.append(f"{len(order)} pushes were joined")
+        self.leave_out(
+            drop,
+            "rows of a push that the one above it has reached, or in which the cone"
+            f" takes load, its first {LOAD:g} m",
+        )
         place = np.argsort(order)
         self.keep(np.argsort(place[np.searchsorted(numbers, self.push)], kind="stable"))
 
@@ -233,12 +248,26 @@ class Readings:
 
     def leave_out_no_load(self) -> None:
         """Leave out the rows in which the cone met no soil: a resistance of less than 0
-        or the sleeve friction; at the start of a test, or few."""
-        tip = self.values[self.tip]
+        or the sleeve friction; at the start of a test, or few. In soft soil, too, the
+        resistance is about 0: there they count, and less than 0 is 0."""
+        tip, depth = self.values[self.tip], self.values["depth"]
         friction = self.values.get("fs", np.zeros(len(tip)))
         low = RANGES[self.tip][0]
         empty = (tip >= low) & ((tip < 0) | (friction > np.maximum(tip, 0)))
         first = int(np.argmin(empty)) if not empty.all() else len(tip)
+        soft = np.zeros(len(tip), dtype=bool)
+        for i in np.flatnonzero(empty & (first < len(tip))):
+            place = depth[max(i, first)] + (2 * NEAR if i < first else 0)
+            soft[i] = np.median(tip[np.abs(depth - place) <= NEAR]) < SOFT
+        if 0 < soft.sum() <= len(tip) / 2:
+            some = depth[soft]
+            self.remarks.append(
+                f"rows of soft soil with a q_c of about 0, from {some[0]:g} to"
+                f" {some[-1]:g} m, are kept, q_c below 0 as 0:"
+                f" {rows_text(self.row[soft])}; check the zero of the test"
+            )
+            self.values[self.tip] = tip = np.where(soft, np.maximum(tip, 0.0), tip)
+            empty &= ~soft
         few = empty[first:].sum() <= FEW * len(tip)
         if few and first < len(tip) / 2:
             self.leave_out(empty, "rows without load (q_c below 0 or below f_s)")
@@ -351,6 +380,82 @@ class Readings:
                 f"rows of a pore pressure below 0, which dense soil has: kept,"
                 f" {(pressure < 0).sum()}, down to {np.nanmin(pressure) / 1e3:g} kPa"
             )
+
+    def zero_at_mudline(self, given: float | None, ratio: float | None) -> bool:
+        """Let readings that were set to 0 on deck begin at the mudline: without the
+        pressure u_0 of the water there, of u_2, and without a u_0, of q_c. Return
+        whether they were. given: the depth of the water (m), None if it is not known;
+        ratio: the net area ratio a."""
+        ratio = ratio if ratio and 0 < ratio <= 1 else AREA_RATIO
+        ratio = 1.0 if self.tip == "qt" else ratio
+        water = WATER * given if given is not None else self.water_at_mudline(ratio)
+        if not water:
+            return False
+        tip, text = self.values[self.tip] - ratio * water, ""
+        if given is not None or np.mean(tip < -DRIFT) < FEW:
+            self.values[self.tip] = np.maximum(tip, 0.0)
+            text = f" and {ratio * water / 1e3:.0f} kPa from q_c"
+        if "u2" in self.values:
+            self.values["u2"] = self.values["u2"] - water
+        text = f"{water / 1e3:.0f} kPa is subtracted from u_2{text}"
+        if given is None:
+            text = (
+                f"some {water / WATER:.0f} m of water, as u_2 is so far above water at"
+                f" rest from the mudline on: {text}; --zeroed-on-deck 20m gives the"
+                " depth of the water, and 0 takes the file as it is"
+            )
+        how = ASSUMED if given is None else GIVEN
+        self.remarks.insert(0, f"{how}: readings were set to 0 on deck; {text}")
+        return True
+
+    def water_at_mudline(self, ratio: float) -> float:
+        """Return the pressure of water (Pa) that u_2 has at the mudline, 0 where it has
+        none. The excess of u_2 is u_0 and B_q times the net resistance, so that a line
+        through the rows below the mudline has both."""
+        depth = self.values["depth"]
+        pressure = self.values.get("u2", np.full(len(depth), np.nan))
+        known = np.isfinite(pressure)
+        if depth[0] > START or known.sum() < ENOUGH * len(known):
+            return 0.0
+        tip = self.values[self.tip] - WEIGHT * depth
+        tip = tip + (self.tip == "qc") * (1 - ratio) * pressure
+        depth, tip = depth[known], tip[known]
+        excess = pressure[known] - WATER * depth
+        first = excess[depth <= START + FIRST]
+        if not len(first) or min(np.median(first), np.median(excess)) < OFFSET:
+            return 0.0
+        near = depth <= 4 * START
+        x, y = np.maximum(tip[near], 1.0), excess[near]
+        friction = self.values.get("fs", np.full(len(known), np.inf))[known][near]
+        friction = np.where(np.isnan(friction), np.inf, friction)
+        is_sand = float(np.median(friction / np.maximum(x - y, 1.0))) < SMOOTH
+        if np.median(y / x) < MOST_PRESSURE and not is_sand:
+            self.remarks.insert(
+                0,
+                f"{ASSUMED}: u_2, {np.median(first) / 1e3:.0f} kPa above water at rest"
+                " at the mudline, is that of clay; if readings were set to 0 on deck,"
+                " give the depth of the water, as --zeroed-on-deck 20m",
+            )
+            return 0.0
+        share = 0.0 if is_sand else USUAL_PRESSURE
+        if np.ptp(x) > OFFSET and not is_sand:
+            share = min(max(float(np.polyfit(x, y, 1)[0]), 0.0), MOST_PRESSURE)
+        found = float(np.median(y - share * x)) / (1 - share)
+        return min(max(found, 0.0), float(y.min()))
+
+    def gaps(self) -> tuple[tuple[float, float], ...]:
+        """Return top and bottom (m) of what was not measured between the rows."""
+        depth = self.values["depth"]
+        step = np.diff(depth)
+        wide = np.flatnonzero(step > max(GAP, SPACINGS * float(np.median(step))))
+        found = tuple((float(depth[i]), float(depth[i + 1])) for i in wide)
+        if found:
+            where = ", ".join(f"{a:g} to {b:g} m" for a, b in found)
+            self.remarks.append(
+                f"{ASSUMED}: nothing was measured from {where}; the soil above and that"
+                " below it meet in the middle, or are one layer"
+            )
+        return found
 
     def reach_up(self, given: Mapping[str, float]) -> tuple[float, str]:
         """Add rows from the mudline down to the first one where that is deep. given:

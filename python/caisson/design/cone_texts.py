@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The estimates as a table on the terminal and as layers.csv."""
 from collections.abc import Sequence
+from math import floor, log10
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import (
     CAN,
+    CLAY_RATIOS,
     ENDS,
     INDEX,
     K0,
@@ -20,6 +22,7 @@ from caisson.design.cone_estimates import (
     Estimates,
 )
 from caisson.design.cone_layers import BAND, Layer
+from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import (
     ANGLE,
     DENSITY,
@@ -27,11 +30,11 @@ from caisson.design.correlations import (
     MODULUS,
     STRENGTH,
 )
-from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, OFFSET, SAND
+from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
 
-WIDEST_GAP = 1.0  # m between rows; a wider one is reported
+DIGITS = 2  # of a small value, at least
 
 
 class Shown(NamedTuple):
@@ -57,12 +60,20 @@ SHOWN = {
 }
 
 
-def text_of(estimate: Estimate | None, shown: Shown) -> str:
-    """Return low, best and high for the terminal."""
+def text_of(estimate: Estimate | None, shown: Shown, top: float) -> str:
+    """Return low, best and high for the terminal; of a line over the depth d below the
+    mudline (m) as "1.5 + 1.35 d". top: of the layer (m)."""
     if estimate is None:
         return ""
-    values = (estimate.low, estimate.best, estimate.high)
-    return " / ".join(f"{value * shown.scale:.{shown.digits}f}" for value in values)
+    lines = [estimate.line(end, top) for end in ENDS]
+    if estimate.growth:
+        ends = [(a * shown.scale, abs(b) * shown.scale) for a, b in lines]
+        sign = "+" if estimate.growth > 0 else "-"
+        return " / ".join(f"{a:.3g} {sign} {b:.3g} d" for a, b in ends)
+    size = (estimate.best or estimate.high) * shown.scale
+    digits = DIGITS - 1 - floor(log10(size)) if size > 0 else 0
+    digits = min(max(digits, shown.digits), shown.digits + DIGITS)
+    return " / ".join(f"{a * shown.scale:.{digits}f}" for a, _ in lines)
 
 
 def quantities_of(every: Sequence[Estimates]) -> list[str]:
@@ -76,8 +87,8 @@ def cells_of(every: Sequence[Estimates]) -> tuple[list[str], list[list[str]]]:
     heads = ["layer", "from to (m)", "soil", *(SHOWN[name].head for name in names)]
     rows = []
     for number, e in enumerate(every, 1):
-        where = f"{e.layer.top:g} to {e.layer.bottom:g}"
-        cells = [text_of(e.values.get(name), SHOWN[name]) for name in names]
+        where = f"{e.layer.top:g} to {e.layer.bottom:.4g}"
+        cells = [text_of(e.values.get(x), SHOWN[x], e.layer.top) for x in names]
         rows.append([str(number), where, e.layer.kind, *cells])
     return heads, rows
 
@@ -126,7 +137,7 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
             f"layer {number} is taken as {own}, though {of_index} is that of"
             f" {by_index}: {' and '.join(why)}; --soil {number}={SAND} overrules this"
         ]
-    measured = ground.pore_pressure is not None and not ground.has_offset
+    measured = ground.pore_pressure is not None
     if own == CLAY and measured and pressure < DRAINED / 2:
         return [
             f"layer {number} is clay by its friction, but its u_2 is not above water at"
@@ -136,61 +147,104 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
     return []
 
 
-def remarks(test: Interpretation) -> list[str]:
-    """Return what the table rests on, lenses and bands, what can be done with other
-    soil than sand, gaps, and columns that were not read."""
+def sources(test: Interpretation) -> list[str]:
+    """Return what the numbers of the table rest on."""
     have = {name for e in test.layers for name in e.values}
+    kinds = {e.layer.kind for e in test.layers}
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:
-        if test.names[c.quantity] == c.name and c.quantity in have:
+        is_of_sand = c.quantity != MODULUS or SAND in kinds
+        if test.names[c.quantity] == c.name and c.quantity in have and is_of_sand:
             factor = test.ground.cone_factor
             name = f"{c.name}, N_kt = {factor:g}" if c.quantity == STRENGTH else c.name
             found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
-    for number, e in enumerate(test.layers, 1):
-        lenses = [f"{kind} from {a:g} to {b:g} m" for a, b, kind in e.layer.lenses]
-        if lenses:
-            found.append(
-                f"layer {number} has {', '.join(lenses)}: no layer of its own, and left"
-                " out of its estimates and of a scene; --tops makes other layers"
-            )
-        bands = [f"{name} soil from {a:g} to {b:g} m" for a, b, name in e.layer.bands]
-        if bands:
-            found.append(
-                f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
-                " from its usual resistance, and not in a scene; --tops makes other"
-                " layers"
-            )
-        found += signs(test.ground, number, e.layer)
-        if e.layer.kind != SAND:
-            found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
-    if test.ground.has_offset:
+    if kinds - {SAND}:
+        low, best, high = CLAY_RATIOS
+        fine = " and ".join(sorted(kinds - {SAND}))
         found.append(
-            f"u_2 is {OFFSET / 1e3:g} kPa and more above water at rest in nearly all"
-            " rows, as if it had not been set to 0 at the mudline: it tells no soils"
-            " apart"
+            f"{MODULUS} of {fine}: {best:g} s_u, from {low:g} to {high:g}; Duncan &"
+            " Buchignani (1976)"
         )
-    depth = test.ground.depth
-    found += [
-        f"no row lies between {a:g} and {b:g} m: the soil there is unknown"
-        for a, b in zip(depth, depth[1:])
-        if b - a > WIDEST_GAP
+    if any(x.growth for e in test.layers for x in e.values.values()):
+        found.append("d is the depth below the mudline in m")
+    return found
+
+
+def remarks_on(test: Interpretation, number: int, e: Estimates) -> list[str]:
+    """Return lenses, bands and doubts of a layer, and what can be done with other soil
+    than sand."""
+    found, ground = list[str](), test.ground
+    if e.layer.is_seam:
+        found.append(
+            f"layer {number} is a thin seam, which the cone feels together with the"
+            " soil around it: its estimates are those of the lowest quarter of its"
+            " readings"
+        )
+    lenses = []
+    for a, b, kind in e.layer.lenses:
+        inside = (ground.depth >= a) & (ground.depth <= b)
+        tip = ground.median(ground.resistance, inside) / 1e6
+        lenses.append(f"{kind} from {a:g} to {b:g} m with a q_c of {tip:.2g} MPa")
+    if lenses:
+        found.append(
+            f"layer {number} has {', '.join(lenses)}: no layer of its own, and left"
+            " out of its estimates and of a scene; --tops makes other layers"
+        )
+    bands = [f"{name} soil from {a:g} to {b:g} m" for a, b, name in e.layer.bands]
+    if bands:
+        found.append(
+            f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
+            " from its usual resistance, and not in a scene; --tops makes other"
+            " layers"
+        )
+    found += signs(ground, number, e.layer)
+    if e.layer.kind != SAND:
+        found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
+    if STRENGTH in e.values and e.values[STRENGTH].low <= 0:
+        found.append(
+            f"layer {number} has a low strength of 0: its resistance does not exceed"
+            " the total vertical stress; check the zero of the test"
+        )
+    return found
+
+
+def remarks(test: Interpretation) -> list[str]:
+    """Return what is assumed of the test, what the table rests on, what is to be said
+    of each layer, and what was made of the file."""
+    of_file = test.test.remarks
+    first = [text for text in of_file if text.startswith((ASSUMED, GIVEN))]
+    of_layers = [
+        text
+        for number, e in enumerate(test.layers, 1)
+        for text in remarks_on(test, number, e)
     ]
-    return [*found, *test.test.remarks]
+    rest = [text for text in of_file if text not in first]
+    return [*first, *sources(test), *of_layers, *rest]
 
 
 def write(path: Path, every: Sequence[Estimates]) -> Path:
-    """Write layers.csv: a row for each layer, empty cells where it has no value."""
+    """Write layers.csv: a row for each layer, empty cells where it has no value. What
+    grows with depth has its values at the top of the layer, and its gradients."""
     names = quantities_of(every)
     heads = ["layer", "top_m", "bottom_m", "soil"]
-    heads += [f"{SHOWN[name].column}_{end}" for name in names for end in ENDS]
+    grows = [
+        n for n in names if any(n in e.values and e.values[n].growth for e in every)
+    ]
+    for name in names:
+        heads += [f"{SHOWN[name].column}_{end}" for end in ENDS]
+        if name in grows:
+            heads += [f"{SHOWN[name].column}_per_m_{end}" for end in ENDS]
     rows = []
     for number, e in enumerate(every, 1):
         row = [str(number), f"{e.layer.top:g}", f"{e.layer.bottom:g}", e.layer.kind]
         for name in names:
             estimate = e.values.get(name)
-            for end in ENDS:
-                value = estimate and estimate.at(end) * SHOWN[name].scale
-                row.append("" if value is None else f"{value:.4g}")
+            for of in (1.0, estimate.growth if estimate else 0.0)[
+                : 1 + (name in grows)
+            ]:
+                for end in ENDS:
+                    value = estimate and estimate.at(end) * SHOWN[name].scale * of
+                    row.append("" if value is None else f"{value:.4g}")
         rows.append(row)
     write_csv(path, heads, rows)
     return path

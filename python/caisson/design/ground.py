@@ -22,9 +22,8 @@ The kind of soil is that of I_c, unless the friction or the pore pressure is aga
 I_c takes stiff clay for sand where Q_tn and F_r are both large: clay is also what has
 an I_B below 22, clay-like in the chart of Robertson (2016, doi 10.1139/cgj-2016-0044).
 In the chart of Q_t and B_q of Robertson (1990, doi 10.1139/t90-014) sand has a B_q of
-about 0: the limits of 0.1 for sand and of 0.2 for what does not drain are assumed. An
-excess pressure counts from 20 kPa; and none does if nearly all rows have 50 kPa and
-more, as where u_2 was not set to 0 at the mudline.
+about 0: the limits of 0.1 for sand, of 0.2 for what does not drain, and of 0.4 for
+what does not drain whatever its I_c are assumed. An excess pressure counts from 20 kPa.
 
 The ground is below water: stresses are those above the pressure of the water at the
 mudline, and u_2 counts from there.
@@ -48,7 +47,8 @@ SAND, SILT, CLAY = "sand", "silt", "clay"
 SAND_BELOW, CLAY_ABOVE = 2.60, 2.95
 CLAY_LIKE = 22.0  # I_B, below which soil is clay-like (Robertson 2016)
 DRAINED, UNDRAINED = 0.1, 0.2  # B_q, below and above which soil drains or does not
-LEAST_EXCESS, OFFSET = 20e3, 50e3  # Pa
+CLEARLY_UNDRAINED = 0.4
+LEAST_EXCESS = 20e3  # Pa
 CONE_FACTOR = 14.0  # N_kt
 
 
@@ -58,7 +58,8 @@ class Ground:
 
     friction_ratio is F_r in percent, index I_c; both are nan where the file has no
     sleeve friction. tip is q_t, normalized Q_tn; pore_pressure is u_2, None for none.
-    Rows above measured_from (m) were not measured; above says how they are known.
+    Rows above measured_from (m) were not measured; above says how they are known. gaps:
+    top and bottom (m) of what was not measured between the rows.
     """
 
     depth: np.ndarray
@@ -75,6 +76,7 @@ class Ground:
     cone_factor: float = CONE_FACTOR
     measured_from: float = 0.0
     above: str = ""
+    gaps: tuple[tuple[float, float], ...] = ()
 
     @property
     def behavior(self) -> np.ndarray:
@@ -89,14 +91,9 @@ class Ground:
         return self.pore_pressure - WATER * self.depth
 
     @property
-    def has_offset(self) -> bool:
-        """Whether nearly all rows have an excess pressure."""
-        return bool(np.quantile(self.excess, 0.05) > OFFSET)
-
-    @property
     def pressure_ratio(self) -> np.ndarray:
         """B_q, 0 where the excess pressure does not count."""
-        counts = (np.abs(self.excess) >= LEAST_EXCESS) & (not self.has_offset)
+        counts = np.abs(self.excess) >= LEAST_EXCESS
         return np.where(counts, self.excess / np.maximum(self.net, 1.0), 0.0)
 
     @property
@@ -202,6 +199,7 @@ def under(test: Test, tip: np.ndarray, weight: np.ndarray) -> Ground:
         test.pore_pressure,
         measured_from=test.measured_from,
         above=test.above,
+        gaps=test.gaps,
     )
 
 
@@ -216,7 +214,7 @@ def kinds_of(
     """Return the kinds of soil [n] of I_c, I_B and B_q; nan says nothing."""
     is_fine = index >= SAND_BELOW
     is_clay = (index > CLAY_ABOVE) | (behavior < CLAY_LIKE)
-    is_clay |= is_fine & (pressure >= UNDRAINED)
+    is_clay |= is_fine & (pressure >= UNDRAINED) | (pressure >= CLEARLY_UNDRAINED)
     return np.select([is_clay, is_fine | (pressure >= DRAINED)], [CLAY, SILT], SAND)
 
 

@@ -17,13 +17,12 @@ from caisson.design import cone_layers as layers
 from caisson.design import correlations
 from caisson.design.cone_estimates import Estimates, estimates_of
 from caisson.design.cone_file import Test
-from caisson.design.cone_rules import GIVEN
+from caisson.design.cone_rules import AREA_RATIO, GIVEN
 from caisson.design.correlations import BY_NAME
 from caisson.design.ground import CLAY, CONE_FACTOR, SAND, SILT, WATER
 from caisson.design.ground import Ground, ground_of
 from caisson.design.quantity import length, number
 
-AREA_RATIO = 0.8
 KINDS = (SAND, SILT, CLAY)
 
 
@@ -168,14 +167,13 @@ def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ..
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
-    """Return what a test says. deepest: below it (m) it does not count. Raises
-    InputError."""
-    whole = cone_file.read(file, how=cone_options.how_of(options))
-    check(file, whole, options)
-    area_ratio, said = area_ratio_of(whole, options.area_ratio)
-    whole = whole._replace(remarks=(*whole.remarks, *said))
-    test = whole if deepest is None else whole.down_to(deepest)
-    if test.depth[-1] <= test.measured_from:
+    """Return what a test says. deepest: layers that begin below it (m) do not count;
+    the others are those of the whole test. Raises InputError."""
+    test = cone_file.read(file, how=cone_options.how_of(options))
+    check(file, test, options)
+    area_ratio, said = area_ratio_of(test, options.area_ratio)
+    test = test._replace(remarks=(*test.remarks, *said))
+    if deepest is not None and deepest <= test.measured_from:
         raise InputError(
             f"{file} begins at {test.measured_from:g} m, below the {deepest:g} m that"
             " count for this skirt"
@@ -192,12 +190,13 @@ def interpret(
         if "sleeve" in str(error):
             ways = "give its kind, as in --soil 1=sand"
         raise InputError(f"{file}: {error}; {ways}") from error
+    reached = [x for x in found if deepest is None or x.top < deepest]
     return Interpretation(
         file,
-        whole,
+        test,
         ground,
         names,
-        estimates_of(ground, found, names),
+        estimates_of(ground, reached, names),
         "robertson-cabal-2010" if weight is None else "--unit-weight",
     )
 

@@ -321,7 +321,7 @@ def name_in(word: str, known: Mapping[str, str], law: str) -> str:
 
 
 def of_choices(
-    best: Sequence[Layer], choices: Mapping[str, Mapping[str, float]]
+    best: Sequence[Layer], choices: Mapping[str, Mapping[str, float | str]]
 ) -> dict[str, list[Layer]]:
     """Return the layers of the low and the high estimate of a cone test. choices: the
     entries of each of them, as in its study."""
@@ -336,7 +336,9 @@ def of_choices(
     return found
 
 
-def changed(entry: Entry, layer: int, values: Mapping[str, float]) -> Entry:
+def changed(entry: Entry, layer: int, values: Mapping[str, float | str]) -> Entry:
     """Return an entry of a layer with another value, if it has one."""
     value = values.get(f"Soil/Layer {layer}/{entry.name}")
-    return entry if value is None else replace(entry, value=f"{value:g}")
+    if value is None:
+        return entry
+    return replace(entry, value=value if isinstance(value, str) else f"{value:g}")

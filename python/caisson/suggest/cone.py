@@ -71,18 +71,35 @@ def remark(found: Interpretation, e: Estimates, name: str) -> str:
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
     source = names[name]
     shown = SHOWN[name]
-    text = f" # FROM CPT ({source}): {shown.head} {text_of(e.values[name], shown)}"
-    start = found.ground.measured_from
-    if e.layer.top >= start:
-        return text
-    if found.ground.above == GIVEN:
+    words = text_of(e.values[name], shown, e.layer.top)
+    text = f" # FROM CPT ({source}): {shown.head} {words}"
+    start, layer = found.ground.measured_from, e.layer
+    if layer.top < start and found.ground.above == GIVEN:
         return text.replace("CPT", "--above", 1)
-    return f"{ASSUMPTION} above {start:g} m, where nothing was measured;{text[2:]}"
+    where = [f"above {start:g} m"] if layer.top < start else []
+    where += [
+        f"from {max(a, layer.top):g} to {min(b, layer.bottom):g} m"
+        for a, b in found.ground.gaps
+        if a < layer.bottom and b > layer.top
+    ]
+    if not where:
+        return text
+    places = " and ".join(where)
+    return f"{ASSUMPTION} {places}, where nothing was measured;{text[2:]}"
 
 
 def number(value: float) -> str:
     """Return a value with four digits."""
     return f"{value:.4g}"
+
+
+def value_of(e: Estimates, name: str, end: str) -> str:
+    """Return low, best or high of a parameter: a number, or a line over the depth d."""
+    estimate = e.values[name]
+    if not estimate.growth:
+        return number(estimate.at(end))
+    value, gradient = estimate.line(end, e.layer.top)
+    return f"{number(value)} {'+' if gradient > 0 else '-'} {number(abs(gradient))}*d"
 
 
 def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
@@ -119,7 +136,7 @@ def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
     deep, stress = points[-1]
     if e is found.layers[-1]:  # goes on below the test
         points.append((GOES_ON * deep, GOES_ON * stress))
-    low = number(e.values[STRENGTH].low)
+    low = value_of(e, STRENGTH, "low")
     text = clay.held(float(number(e.values[K0].best)), low, points)
     within = "" if "s" not in text else ", within what the low strength bears"
     return Entry("K0", text, f" # FROM CPT{within}")
@@ -142,12 +159,11 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
             ),
             Entry("Poisson ratio", ASSUMED["Poisson ratio"], ASSUMPTION),
         ]
-    modulus = number(e.values[MODULUS].best)
     return [
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
-        Entry("Cohesion", number(e.values[STRENGTH].best), remark(found, e, STRENGTH)),
-        Entry("Youngs modulus", modulus, clay.MODULUS_REMARK),
+        Entry("Cohesion", value_of(e, STRENGTH, "best"), remark(found, e, STRENGTH)),
+        Entry("Youngs modulus", value_of(e, MODULUS, "best"), clay.MODULUS_REMARK),
         Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
         at_rest_of(found, e),
         Entry("Friction angle of the walls", "0"),
@@ -175,13 +191,21 @@ def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
     return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
 
 
+def plain(text: str) -> float | str:
+    """Return a number, or an expression as it is."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def choices_of(
     found: Interpretation, end: float, wall_friction: float | None, law: str
-) -> dict[str, dict[str, float]]:
+) -> dict[str, dict[str, float | str]]:
     """Return the entries of the low, the best and the high estimate: density or
     strength, and stiffness of all layers together, and the friction of the walls where
     it follows from a friction angle."""
-    choices: dict[str, dict[str, float]] = {}
+    choices: dict[str, dict[str, float | str]] = {}
     for name in ENDS:
         entries: dict[str, Any] = {}
         angles = []
@@ -197,11 +221,9 @@ def choices_of(
                 entries[f"{head}/Friction angle"] = angle
                 angles += [angle] if e.layer.top < end else []
             else:
-                strength = e.values[STRENGTH].at(name)
-                entries[f"{head}/Cohesion"] = float(number(strength))
+                entries[f"{head}/Cohesion"] = plain(value_of(e, STRENGTH, name))
             quantity = REFERENCE if e.layer.kind == SAND else MODULUS
-            modulus = e.values[quantity].at(name)
-            entries[f"{head}/Youngs modulus"] = float(number(modulus))
+            entries[f"{head}/Youngs modulus"] = plain(value_of(e, quantity, name))
         if wall_friction is None and angles:
             for side in ("outer", "inner"):
                 entry = f"Rigid body/Friction angle of the {side} wall"
