@@ -387,6 +387,8 @@ class Gef(WithFiles):
         """In quotation marks, and a few rows with another number of cells."""
         test = self.read("\n".join(f'"{line}",,' for line in GEF.splitlines()))
         np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        test = self.read("\n".join(f"    {line}" for line in GEF.splitlines()))
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
         some = [f'"{x}"' if "INFO" in x else x for x in GEF.splitlines()]
         some += [f"{i / 5:g};4.00;0.02;-1;{i / 5:g};!" for i in range(8, 200)]
         some[40] += "7;!"

@@ -61,11 +61,14 @@ def chosen_of(path: Path, names: Sequence[str], location: str, example: str) -> 
 
 def is_gef(lines: Sequence[str]) -> bool:
     """Return whether the lines of a file are in GEF."""
-    return any(re.match(r'"?#\s*(GEFID|COLUMNINFO)\b', line, re.I) for line in lines)
+    keys = r'\s*"?#\s*(GEFID|COLUMNINFO)\b'
+    return any(re.match(keys, line, re.I) for line in lines)
 
 
 def unquoted(line: str) -> str:
-    """Return a line without the quotation marks of a spreadsheet program."""
+    """Return a line without the quotation marks of a spreadsheet program, and without
+    blanks in front of a key."""
+    line = line.lstrip() if line.lstrip().startswith(("#", '"')) else line
     if match := re.fullmatch(r'"(.*)"[\s,;]*', line):
         return match[1].replace('""', '"')
     return line

@@ -232,7 +232,13 @@ def seams_of(ground: Ground) -> list[tuple[float, float]]:
         rows[begin:end] = True
         core = [x for x in stretches_of(ground, rows, kinds, SILT) if x[2] == CLAY]
         top, bottom = float(depth[begin]), float(depth[end - 1])
-        if not core or bottom - top > THICKEST_SEAM:
+        ends = float(depth[measured][0]) + THINNEST, float(depth[-1]) - THINNEST
+        if (
+            not core
+            or bottom - top > THICKEST_SEAM
+            or top < ends[0]
+            or bottom > ends[1]
+        ):
             continue
         level = float(np.quantile(ground.net[rows], TROUGH))
         above = is_sand & (depth < top) & (depth >= top - THICKEST_SEAM)

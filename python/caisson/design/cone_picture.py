@@ -259,6 +259,8 @@ def draw(
             axes.axhline(tip, color=TIP, linewidth=1.4, linestyle="--", zorder=5)
     figure.suptitle(title, fontsize=11)
     shown = [p.estimate for p in panels if p.estimate in names]
+    if not any(e.layer.kind == SAND for e in every):  # whose modulus is one of s_u
+        shown = [name for name in shown if name != MODULUS]
     note = "; ".join(names[quantity] for quantity in shown)
     legend_of(figure, ground, every, note, tip)
     figure.set_layout_engine("tight", rect=(0, 0.06, 1, 1))
