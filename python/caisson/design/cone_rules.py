@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
+from scipy.stats import theilslopes
 
 from caisson.disk import InputError
 from caisson.nature import WATER
@@ -438,8 +439,16 @@ class Readings:
             )
             return 0.0
         share = 0.0 if is_sand else USUAL_PRESSURE
-        if np.ptp(x) > OFFSET and not is_sand:
-            share = min(max(float(np.polyfit(x, y, 1)[0]), 0.0), MOST_PRESSURE)
+        if not is_sand:  # by medians, as single readings scatter
+            near = depth <= 10 * START
+            place = np.floor(depth[near] / NEAR)
+            x, y = (
+                np.array([np.median(v[near][place == i]) for i in np.unique(place)])
+                for v in (tip, excess)
+            )
+            if np.ptp(x) > OFFSET:
+                slope = theilslopes(y, x)[0]
+                share = min(max(float(slope), 0.0), MOST_PRESSURE)
         found = float(np.median(y - share * x)) / (1 - share)
         return min(max(found, 0.0), float(y.min()))
 
