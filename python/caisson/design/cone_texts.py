@@ -60,6 +60,11 @@ SHOWN = {
 }
 
 
+def plain(value: float) -> str:
+    """Return a number with three digits or more, without a power of ten."""
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
 def text_of(estimate: Estimate | None, shown: Shown, top: float) -> str:
     """Return low, best and high for the terminal; of a line over the depth d below the
     mudline (m) as "1.5 + 1.35 d". top: of the layer (m)."""
@@ -69,7 +74,7 @@ def text_of(estimate: Estimate | None, shown: Shown, top: float) -> str:
     if estimate.growth:
         ends = [(a * shown.scale, abs(b) * shown.scale) for a, b in lines]
         sign = "+" if estimate.growth > 0 else "-"
-        return " / ".join(f"{a:.3g} {sign} {b:.3g} d" for a, b in ends)
+        return " / ".join(f"{plain(a)} {sign} {plain(b)} d" for a, b in ends)
     size = (estimate.best or estimate.high) * shown.scale
     digits = DIGITS - 1 - floor(log10(size)) if size > 0 else 0
     digits = min(max(digits, shown.digits), shown.digits + DIGITS)

@@ -98,8 +98,8 @@ def value_of(e: Estimates, name: str, end: str) -> str:
     estimate = e.values[name]
     if not estimate.growth:
         return number(estimate.at(end))
-    value, gradient = estimate.line(end, e.layer.top)
-    return f"{number(value)} {'+' if gradient > 0 else '-'} {number(abs(gradient))}*d"
+    value, gradient = estimate.line(end, e.layer.top)  # whose difference counts
+    return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*d"
 
 
 def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
