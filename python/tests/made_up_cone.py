@@ -4,6 +4,7 @@ import argparse
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -73,7 +74,7 @@ class WithFiles(unittest.TestCase):
         self.path.write_text(text, encoding="utf-8")
         return self.path
 
-    def read(self, text: str, location: str = "", **how: str) -> cone_file.Test:
+    def read(self, text: str, location: str = "", **how: Any) -> cone_file.Test:
         """Return the test of a file with this text."""
         return cone_file.read(self.written(text), how=How(location, **how))
 

@@ -560,6 +560,15 @@ class Strength(WithFiles):
                         self.assertAlmostEqual(ratio, 1, delta=0.03 + 0.5 * noise)
         self.assertEqual(found.layers[0].values[STRENGTH].growth, 0)
 
+    def test_crust_does_not_go_on(self) -> None:
+        """A caisson that ends in it has the layer below it, too."""
+        self.clay(lambda z: max(40 - 12 * z, 5 + 1.3 * z))
+        told = options("--unit-weight", "15.8")
+        layers = interpretation.interpret(self.path, told, 1.5).layers
+        growths = [e.values[STRENGTH].growth for e in layers]
+        self.assertLess(growths[0], 0)
+        self.assertGreater(growths[1], 0)
+
     def test_texts(self) -> None:
         """Table, file and remarks have the line, and the modulus that a scene takes."""
         found = self.clay(lambda z: 1.5 + 1.35 * z)

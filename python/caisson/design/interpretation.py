@@ -190,13 +190,16 @@ def interpret(
         if "sleeve" in str(error):
             ways = "give its kind, as in --soil 1=sand"
         raise InputError(f"{file}: {error}; {ways}") from error
-    reached = [x for x in found if deepest is None or x.top < deepest]
+    every = estimates_of(ground, found, names)
+    number = sum(deepest is None or layer.top < deepest for layer in found)
+    while any(x.growth < 0 for x in every[number - 1].values.values()):
+        number += 1  # what grows weaker does not go on for ever
     return Interpretation(
         file,
         test,
         ground,
         names,
-        estimates_of(ground, reached, names),
+        every[:number],
         "robertson-cabal-2010" if weight is None else "--unit-weight",
     )
 
