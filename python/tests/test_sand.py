@@ -307,7 +307,7 @@ class FromACone(unittest.TestCase):
             names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
             self.assertEqual(list(choices["best"]), names)
             for entry in names:
-                low, best, high = (choices[name][entry] for name in choices)
+                low, best, high = (float(choices[name][entry]) for name in choices)
                 self.assertTrue(low < best < high, entry)
 
 
