@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the soil of a cone test is: by I_c, friction and pore pressure, or as told."""
 import contextlib
+import csv
 import io
 import unittest
+from collections.abc import Callable
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from caisson.design import cone_texts as tables
-from caisson.suggest import cone
+from caisson.suggest import band, cone
 from caisson.design import cone_file, interpretation
 from caisson.disk import InputError
+from caisson.design.cone_estimates import RESISTANCE, Estimate
 from caisson.design.correlations import STRENGTH
+from caisson.design.expression import value_at
 from caisson.design.ground import behavior_of, ground_of, kinds_of
-from made_up_cone import WithFiles, options
+from made_up_cone import HEAD, WithFiles, options
 
 
 class Kinds(WithFiles):
@@ -154,6 +159,176 @@ class Kinds(WithFiles):
         self.assertIn("undrained strength: nkt, N_kt = 17.5", self.said())
         with self.assertRaisesRegex(InputError, "--nkt 2 is not between 5 and 40"):
             self.kinds("--nkt", "2")
+
+
+class Thin(WithFiles):
+    """Strips, seams, and layers without rows."""
+
+    def test_begins_below_a_boundary(self) -> None:
+        """A boundary that would leave a layer without rows is none."""
+        rows = "".join(
+            f"{0.5 + z / 50:g},{0.05 if z < 4 else 5},0.5\n" for z in range(99)
+        )
+        path = self.written("depth_m,qc_MPa,fs_kPa\n" + rows.replace("5,0.5", "5,45"))
+        found = interpretation.interpret(path, options())
+        for e in found.layers:
+            self.assertTrue(e.layer.rows.any())
+        self.assertAlmostEqual(found.layers[-1].values[RESISTANCE].best, 5e6)
+
+    def test_thin_strips_count(self) -> None:
+        """Strips of other soil below 0.1 m stay in the estimate; a lens is named with
+        its resistance."""
+        for width, low, best in ((4, 10e6, 16e6), (10, 10e6, 10e6)):
+            rows = []
+            for i in range(300):
+                is_strip = i > 100 and i % (2 * width) < width + (width == 4)
+                q, ratio = (16, 0.05) if is_strip else (10, 0.008)
+                rows.append(f"{i / 50:g},{q},{1e3 * q * ratio:g}")
+            path = self.written("depth_m,qc_MPa,fs_kPa\n" + "\n".join(rows))
+            found = interpretation.interpret(path, options("--tops", "0,2"))
+            value = found.layers[1].values[RESISTANCE]
+            self.assertAlmostEqual(value.best, best)
+            said = "\n".join(tables.remarks(found))
+            self.assertEqual("m with a q_c of 16 MPa" in said, width == 10)
+
+    def test_seam_of_clay(self) -> None:
+        """It is a layer, of the trough of its readings, and the same layers are found
+        for a caisson that does not reach the end of the test."""
+        z = np.arange(0, 14, 0.02)
+        for top, bottom, spread, strength in (
+            (3.2, 3.55, 4, 60),
+            (3.2, 3.4, 2, 60),
+            (5.02, 5.62, 5, 35),
+        ):
+            is_clay = (z >= top) & (z < bottom)
+            sand = 22.5e3 * (np.maximum(5.7 * z, 1) / 100) ** 0.46
+            tip = np.where(is_clay, 14 * strength + 19.3 * z, sand)
+            tip = np.exp(gaussian_filter1d(np.log(tip), spread))
+            ratio = gaussian_filter1d(np.where(is_clay, 4.5, 0.6), spread) / 100
+            rows = zip(z, tip / 1e3, tip * ratio)
+            text = "\n".join(",".join(f"{x:.5g}" for x in row) for row in rows)
+            path = self.written("depth_m,qc_MPa,fs_kPa\n" + text)
+            whole, part = (
+                interpretation.interpret(path, options(), end) for end in (None, 7.5)
+            )
+            [seam] = [e for e in whole.layers if e.layer.kind == "clay"]
+            self.assertAlmostEqual(seam.layer.top, top, delta=0.1)
+            self.assertAlmostEqual(seam.layer.bottom, bottom, delta=0.1)
+            found = seam.values[STRENGTH].best / 1e3
+            self.assertAlmostEqual(found / strength, 1, delta=0.15)
+            self.assertEqual({e.layer.kind for e in whole.layers}, {"sand", "clay"})
+            for one, other in zip(whole.layers, part.layers):
+                self.assertEqual(one.values, other.values)
+                self.assertEqual(one.layer.top, other.layer.top)
+            self.assertTrue(all(e.layer.top < 7.5 for e in part.layers))
+
+
+class Strength(WithFiles):
+    """Of clay over the depth."""
+
+    def clay(
+        self, strength: Callable[[float], float], noise: float = 0.0, end: float = 25.0
+    ) -> interpretation.Interpretation:
+        """Return a test in clay of a strength (kPa) over the depth (m)."""
+        z = np.arange(0, end + 0.01, 0.05)
+        chance = np.random.default_rng(1).standard_normal(len(z))
+        s = np.array([strength(x) for x in z]) * (1 + noise * chance)
+        u = 9.81 * z + 0.5 * 14 * s
+        tip = 14 * s + 15.8 * z - 0.2 * u
+        rows = [
+            f"{a:.2f},{b:.5f},{c:.3f},{d:.2f}"
+            for a, b, c, d in zip(z, tip / 1e3, s / 2, u)
+        ]
+        return interpretation.interpret(
+            self.written(HEAD + "\n".join(rows)), options("--unit-weight", "15.8")
+        )
+
+    def test_lines(self) -> None:
+        """Clay whose strength grows is one layer with a line, a crust another; clay of
+        one strength has none; noise does not matter."""
+        soils: list[tuple[Callable[[float], float], list[float]]] = [
+            (lambda z: 1.5 + 1.35 * z, []),
+            (lambda z: max(40 - 12 * z, 5 + 1.3 * z), [2.6]),
+            (lambda z: 5 + 2 * z if z < 5 else 40 if z < 10 else 10 + 3 * z, [5, 10]),
+            (lambda z: 60.0, []),
+        ]
+        for noise in (0.0, 0.1):
+            for strength, edges in soils:
+                found = self.clay(strength, noise)
+                self.assertEqual({e.layer.kind for e in found.layers}, {"clay"})
+                tops = [e.layer.top for e in found.layers][1:]
+                np.testing.assert_allclose(np.array(tops), edges, atol=0.5)
+                for e in found.layers:
+                    value, gradient = e.values[STRENGTH].line("best", e.layer.top)
+                    for share in (0.15, 0.5, 0.9):
+                        z = e.layer.top + share * (e.layer.bottom - e.layer.top)
+                        ratio = (value + gradient * z) / 1e3 / strength(z)
+                        self.assertAlmostEqual(ratio, 1, delta=0.03 + 0.5 * noise)
+        self.assertEqual(found.layers[0].values[STRENGTH].growth, 0)
+
+    def test_crust_does_not_go_on(self) -> None:
+        """A caisson that ends in it has the layer below it, too."""
+        self.clay(lambda z: max(40 - 12 * z, 5 + 1.3 * z))
+        told = options("--unit-weight", "15.8")
+        layers = interpretation.interpret(self.path, told, 1.5).layers
+        growths = [e.values[STRENGTH].growth for e in layers]
+        self.assertLess(growths[0], 0)
+        self.assertGreater(growths[1], 0)
+
+    def test_texts(self) -> None:
+        """Table, file and remarks have the line, and the modulus that a scene takes."""
+        found = self.clay(lambda z: 1.5 + 1.35 * z)
+        said = tables.text_of_test(found)
+        self.assertIn("1.17 + 1.05 d / 1.5 + 1.35 d / 2.1 + 1.89 d", said)
+        self.assertIn("0.45 + 0.405 d", said)
+        self.assertIn("Young's modulus of clay: 300 s_u, from 150 to 600", said)
+        self.assertNotIn("Schmertmann", said)
+        self.assertRegex(said, r"\| 0\.\d\d / 0\.\d\d / 0\.\d\d +\|")  # q_c (MPa)
+        tables.write(self.path, found.layers)
+        with open(self.path, encoding="utf-8") as file:
+            [row] = csv.DictReader(file)
+        self.assertEqual(row["undrained_strength_kPa_best"], "1.5")
+        self.assertEqual(row["undrained_strength_kPa_per_m_best"], "1.35")
+
+    def test_small_digits(self) -> None:
+        shown = tables.SHOWN[RESISTANCE]
+        for value, text in (
+            (17e3, "0.017 / 0.017 / 0.017"),
+            (0.16e6, "0.16 / 0.16 / 0.16"),
+            (12.34e6, "12.3 / 12.3 / 12.3"),
+            (0.0, "0.0 / 0.0 / 0.0"),
+        ):
+            self.assertEqual(
+                tables.text_of(Estimate(value, value, value), shown, 0), text
+            )
+
+    def test_scene(self) -> None:
+        """Lines of strength and modulus, of all three estimates, and a K0 that the
+        strength bears."""
+        found = self.clay(lambda z: 1.5 + 1.35 * z)
+        [layer] = cone.layers_of(found, 20.0, "density")
+        for depth in (0.0, 1.0, 13.0, 25.0):
+            stress = max((15.8e3 - 9.81e3) * depth, 1.0)
+
+            def at(name: str) -> float:
+                value = value_at(layer.value(name), depth, stress)
+                assert value is not None
+                return value
+
+            self.assertAlmostEqual(at("Cohesion"), 1500 + 1350 * depth, delta=60)
+            self.assertAlmostEqual(at("Youngs modulus") / at("Cohesion"), 300, delta=3)
+            low = 14 / 18 * at("Cohesion")
+            self.assertLessEqual(abs(1 - at("K0")) * stress, 2 * low)
+        choices = cone.choices_of(found, 20.0, None, "density")
+        for name, strength in (("low", 14 / 18), ("best", 1), ("high", 1.4)):
+            text = str(choices[name]["Soil/Layer 1/Cohesion"])
+            value = value_at(text, 10.0, 1.0)
+            assert value is not None
+            self.assertAlmostEqual(value / 15e3 / strength, 1, delta=0.03)
+        ends = band.of_choices([layer], choices)
+        self.assertEqual(
+            ends["low"][0].value("Cohesion"), choices["low"]["Soil/Layer 1/Cohesion"]
+        )
 
 
 class Above(WithFiles):
