@@ -123,7 +123,7 @@ def run_command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     module.add_arguments(own)
-    options = own.parse_args(argv[1:])
+    disk.begin(paths_in(options := own.parse_args(argv[1:])))
     try:
         return int(module.main(options))
     except BrokenPipeError:  # as of `| head`
@@ -137,6 +137,13 @@ def run_command(
             raise
         print(f"{name}: {words_on(error)}", file=sys.stderr)
     return 1
+
+
+def paths_in(options: argparse.Namespace) -> list[Path]:
+    """Return the paths that a command line names."""
+    values = vars(options).values()
+    words = (x for value in values for x in (value if type(value) is list else [value]))
+    return [word for word in words if isinstance(word, Path)]
 
 
 def for_each(name: str, places: Sequence[Path], do: Callable[[Path], None]) -> int:

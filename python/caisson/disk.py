@@ -2,19 +2,26 @@
 """Files of users: the one place that reads their text and writes them.
 
 What is written goes into a file beside its place, is flushed to the disk, checked, and
-takes its name last: an error leaves what was there, and no half. A file whose place a
-user has chosen, or that one may have changed, is never replaced unasked: within
-all_or_none() it is refused, and keep() puts it aside as the program does with earlier
-results.
+takes its name last: an error leaves what was there, and no half.
+
+What this package has not written, or what was changed since, is never replaced. The
+file RECORD of a directory has size and checksum of what was written there. Any other
+file goes to the next earlier_N, as the program does with earlier results, and a line
+says so. Where the user chooses the place, within all_or_none(), it is refused, unless
+--overwrite is given. A file that is named on the command line and read is an input, and
+is never an output.
 """
 import contextlib
 import csv
+import fcntl
 import functools
 import io
 import json
 import os
 import re
+import sys
 import threading
+import zlib
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -37,9 +44,20 @@ DAMAGE = (
 )
 MOST = 2**29  # bytes of a text: a device has no end
 EARLIER = re.compile(r"earlier_(\d{1,9})")  # as the program names them
+RECORD = ".caisson"  # lines of a checksum, a size and a name; and of an owner
+OWNER = "of "  # begins the line that names the file whose results are there
 
 read_last: deque[Path] = deque(maxlen=3)  # for what is said of a damaged file
+named: set[Path] = set()  # on the command line
+_read: set[Path] = set()
+_places: dict[Path, Path] = {}  # the earlier_N of this command, by directory
 _waiting: dict[Path, bytes] | None = None  # what all_or_none() is going to write
+
+
+def note_reading(path: Path) -> None:
+    """Remember that a file is read, by this process or by the program."""
+    if named:
+        _read.add(path.resolve())
 
 
 def read_bytes(path: Path, refuse: Refusal = InputError) -> bytes:
@@ -47,6 +65,7 @@ def read_bytes(path: Path, refuse: Refusal = InputError) -> bytes:
     kind."""
     if path not in read_last:
         read_last.append(path)
+    note_reading(path)
     try:
         with open(path, "rb") as file:
             data = file.read(MOST + 1)
@@ -117,8 +136,111 @@ def remarks(mark: str, lines: Iterable[str]) -> list[str]:
     return [f"{mark} {one_line(line)}" for line in lines]
 
 
-def _write_beside(path: Path, data: bytes) -> None:
-    """Write a file beside its place, and give it its name when it is whole."""
+def _stamp(data: bytes) -> str:
+    """Return checksum and size of a content, as RECORD has them."""
+    return f"{zlib.crc32(data):08x} {len(data)}"
+
+
+def _recorded(directory: Path, change: dict[str, str] | None = None) -> dict[str, str]:
+    """Return what RECORD of a directory says, {name: stamp} and {OWNER: path}, after
+    a change of it."""
+    known = dict[str, str]()
+    with contextlib.suppress(OSError):
+        how = "a+" if change else "r"
+        with (directory / RECORD).open(how, -1, "utf-8", "replace") as file:
+            with contextlib.suppress(OSError):  # of file systems without locks
+                fcntl.flock(file, fcntl.LOCK_EX if change else fcntl.LOCK_SH)
+            file.seek(0)
+            for line in file.read().splitlines():
+                if line.startswith(OWNER):
+                    known[OWNER] = line.removeprefix(OWNER)
+                elif len(words := line.split(" ", 2)) == 3:
+                    known[words[2]] = " ".join(words[:2])
+            if change and not change.items() <= known.items():
+                known |= change
+                file.truncate(0)
+                file.writelines(f"{v} {k}\n" for k, v in known.items() if k != OWNER)
+                file.writelines(f"{OWNER}{v}\n" for k, v in known.items() if k == OWNER)
+    return known
+
+
+def claim(directory: Path, source: Path, how: str) -> None:
+    """Take a directory for the results of a file. Raises InputError where it has those
+    of another one. how: to choose another directory."""
+    own = os.path.relpath(source.resolve(), directory.resolve())
+    found = _recorded(directory).get(OWNER, own)
+    if found != own:
+        other = os.path.normpath(directory / found)
+        raise InputError(
+            f"{directory} has the results of {other}, and not of {source}: {how}. If it"
+            f" is the same file at another place, delete its line in"
+            f" {directory / RECORD}"
+        )
+    directory.mkdir(parents=True, exist_ok=True)
+    _recorded(directory, {OWNER: own})
+
+
+def begin(paths: Iterable[Path]) -> None:
+    """Begin a command that names these paths."""
+    _read.clear()
+    _places.clear()
+    named.clear()
+    named.update(path.resolve() for path in paths if path.is_file())
+
+
+def refuse_input(path: Path) -> None:
+    """Raise InputError where a file is named on the command line, and was read."""
+    if path.is_file() and path.resolve() in named & _read:
+        raise InputError(
+            f"{path} is an input of this command, which would replace it: copy it to"
+            " another place, and name that"
+        )
+
+
+def _put_aside(path: Path) -> Path:
+    """Move a file to the next earlier_N of its directory, that of this command where
+    there is one; return its new path."""
+    place = _places.get(path.parent)
+    if place is None or not place.is_dir() or (place / path.name).exists():
+        found = map(EARLIER.fullmatch, os.listdir(path.parent))
+        number = max((int(name[1]) for name in found if name), default=0) + 1
+        place = _places[path.parent] = path.parent / f"earlier_{number}"
+        place.mkdir()
+    return path.rename(place / path.name)
+
+
+def _say_kept(path: Path, new: Path) -> None:
+    """Say on the terminal where a file is now."""
+    print(f"kept: {path} is now {new}", file=sys.stderr)
+
+
+def _content(path: Path) -> bytes | None:
+    """Return the content of a file, None where there is none."""
+    return path.read_bytes() if path.is_file() else None
+
+
+def _is_kept(path: Path, data: bytes | None) -> bool:
+    """Return whether a file is to be put aside before it gets this content: unless it
+    has it already, or is as this package has written it. Raises InputError where it is
+    an input."""
+    old = _content(path)
+    if old is None or old == data:
+        return False
+    refuse_input(path)
+    return _recorded(path.parent).get(path.name) != _stamp(old)
+
+
+def remove(path: Path) -> None:
+    """Remove a file that this package has written, if it is there; one that was changed
+    since is put aside. Raises InputError where it is an input."""
+    if _is_kept(path, None):
+        _say_kept(path, _put_aside(path))
+    path.unlink(missing_ok=True)
+
+
+def _write_beside(path: Path, data: bytes, is_kept: bool) -> None:
+    """Write a file beside its place, and give it its name when it is whole. is_kept:
+    put aside what has this name."""
     if path.exists() and not path.is_file():  # a device or a pipe has no beside
         path.write_bytes(data)
         return
@@ -132,27 +254,62 @@ def _write_beside(path: Path, data: bytes) -> None:
             os.fsync(file.fileno())
         if new.stat().st_size != len(data):
             raise OSError(0, "the disk has not kept all of it")
-        new.replace(path)
+        aside = _put_aside(path) if is_kept else None
+        try:
+            new.replace(path)
+        except OSError:
+            if aside:
+                aside.rename(path)
+                with contextlib.suppress(OSError):  # it has other files
+                    aside.parent.rmdir()
+            raise
+        if aside:
+            _say_kept(path, aside)
     finally:
         new.unlink(missing_ok=True)
 
 
-def write(path: Path, content: str | bytes) -> Path:
+def _write_whole(path: Path, data: bytes, is_kept: bool = False) -> Path:
     """Write a file whole, or leave what was there; return its path. Raises OSError,
     which names the file."""
-    data = content
-    if isinstance(data, str):
-        data = data.encode("utf-8", errors="backslashreplace")
-    if _waiting is not None:
-        _waiting[path] = data
-        return path
     try:
-        _write_beside(path, data)
+        _write_beside(path, data, is_kept)
     except OSError as error:
         kept = "; what was there is kept" if path.exists() else ""
         reason = error.strerror or error
         raise OSError(f"{path} cannot be written: {reason}{kept}") from error
     return path
+
+
+def _write_own(path: Path, data: bytes, is_kept: bool) -> Path:
+    """Write a file whole and record it; return its path. Raises OSError."""
+    _write_whole(path, data, is_kept)
+    if path.is_file() and path.name.isprintable():
+        _recorded(path.parent, {path.name: _stamp(data)})
+    return path
+
+
+def _bytes_of(content: str | bytes) -> bytes:
+    """Return a content in UTF-8."""
+    if isinstance(content, str):
+        return content.encode("utf-8", errors="backslashreplace")
+    return content
+
+
+def write(path: Path, content: str | bytes) -> Path:
+    """Write a file whole, or leave what was there; return its path. A file that this
+    package has not written, or that was changed since, is put aside. Raises OSError,
+    which names the file, or InputError where it is an input."""
+    data = _bytes_of(content)
+    if _waiting is not None:
+        _waiting[path] = data
+        return path
+    return _write_own(path, data, _is_kept(path, data))
+
+
+def update(path: Path, content: str | bytes) -> Path:
+    """Write a file as write() does, with a content that has all of the one before."""
+    return _write_own(path, _bytes_of(content), False)
 
 
 def save(figure: Any, path: Path, dpi: int = 150) -> Path:
@@ -177,10 +334,10 @@ def save_pages(figures: Iterable[Any], path: Path) -> Path:
 
 
 @contextlib.contextmanager
-def all_or_none(overwrite: bool) -> Iterator[None]:
+def all_or_none(overwrite: bool | None = None) -> Iterator[None]:
     """Let write() wait for the end of the block, and then write all files: none where
     the block fails, or where one of them is there with another content and not to be
-    overwritten. Raises InputError."""
+    overwritten. None stands for the rule of write(). Raises InputError."""
     global _waiting
     if _waiting is not None:  # within another one, which decides
         yield
@@ -192,23 +349,23 @@ def all_or_none(overwrite: bool) -> Iterator[None]:
     finally:
         _waiting = None
     for path, data in files.items():
-        if not overwrite and path.is_file() and path.read_bytes() != data:
+        if _content(path) in (None, data):
+            continue
+        refuse_input(path)
+        if overwrite is False:
             raise InputError(
                 f"{path} exists, and differs from what would be written; --overwrite"
                 " replaces it"
             )
     for path, data in files.items():
-        write(path, data)
+        if overwrite is None:
+            write(path, data)
+        else:
+            _write_whole(path, data)
 
 
 def keep(path: Path, content: str | bytes) -> Path:
-    """Write a file into the directory of a run; another one of this name goes to the
-    next earlier_N there. Returns its path."""
-    data = content.encode("utf-8") if isinstance(content, str) else content
-    if path.is_file() and path.read_bytes() != data:
-        found = map(EARLIER.fullmatch, os.listdir(path.parent))
-        number = max((int(name[1]) for name in found if name), default=0) + 1
-        place = path.parent / f"earlier_{number}"
-        place.mkdir()
-        path.rename(place / path.name)
-    return write(path, data)
+    """Write a file as write() does, but put another one aside whoever has written it.
+    Returns its path."""
+    data = _bytes_of(content)
+    return _write_own(path, data, _content(path) not in (None, data))

@@ -93,6 +93,8 @@ def environment() -> dict[str, str]:
 def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     """Return what the program says without a run, as with --validate. Raises RunError
     with that where it refuses the input."""
+    for path in filter(Path.is_file, map(Path, arguments)):
+        disk.note_reading(path)
     done = subprocess.run(
         [str(program), *arguments],
         text=True,
@@ -163,12 +165,6 @@ class Run:
 
     RECORD = "run_key.json"
     CHECKPOINT = "checkpoint.info"
-    # what this package and its commands write beside the program's own files
-    OWN = (
-        *("log", RECORD, "forces.png", "suction.png", "design.csv", "walls.png"),
-        *("stress.png", "displacement.png", "void_ratio.png", "pore_pressure.png"),
-        *("blocks.png", "report.html", "report.pdf"),
-    )
 
     def __init__(
         self,
@@ -322,11 +318,11 @@ class Run:
         process.communicate()
 
     def make_room(self) -> list[str]:
-        """Make the directory and, if it is the run's own, remove what this package has
-        written there; return the options with which the program does the same."""
+        """Make the directory; return the options with which the program removes what
+        is there, if it is the run's own. Its log and its record begin anew."""
         is_own = (self.directory / self.RECORD).is_file()
         self.directory.mkdir(parents=True, exist_ok=True)
-        for name in self.OWN if is_own else ():
+        for name in ("log", self.RECORD) if is_own else ():
             (self.directory / name).unlink(missing_ok=True)
         return ["--overwrite"] if is_own else []
 

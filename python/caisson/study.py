@@ -132,7 +132,13 @@ class StudyRun:
         if record is None:
             how = "ended early" if status is None else f"exit status {status}"
             how = "stopped" if self.is_stopped else how
-            self.trouble = f"{how}, see {self.run.directory / 'log'}"
+            log = self.run.directory / "log"
+            said = disk.read_text(log).split("\n") if log.is_file() else []
+            last = next((x.strip() for x in reversed(said) if x.strip()), "")
+            reason = (
+                f": {disk.one_line(last)[:300]}" if status == Status.BAD_INPUT else ""
+            )
+            self.trouble = f"{how}, see {log}{reason}"
         cost = f"{record['wall_s']:.0f} s" if record else self.trouble
         if record and record["status"] == Status.FAILURE:
             cost = f"{cost}, ended with a failure"

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 
-from caisson import dask_runs, needed
+from caisson import dask_runs, disk, needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import span
 from caisson.ranks import Size, cores, plan
@@ -27,6 +27,7 @@ from caisson.study import (
     StudyError,
     StudyRun,
     execute,
+    file_name,
     longest_first,
     read_toml,
 )
@@ -153,6 +154,10 @@ def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int
             print(text, flush=True)
         return 0
     options.results.mkdir(parents=True, exist_ok=True)
+    if kinds is KINDS:  # of users, who may have several of one name
+        for study in studies:
+            way = "choose another --results or another id"
+            disk.claim(options.results / file_name(study.id), arguments.file, way)
     return int(run_and_evaluate(module, studies, options, arguments))
 
 

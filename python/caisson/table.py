@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,18 @@ def by_rows(columns: Mapping[str, Iterable[str]]) -> dict[str, Any]:
     return {"heads": list(columns), "rows": list(map(list, zip(*columns.values())))}
 
 
+def text_cell(value: Any) -> Any:
+    """Return a cell that a spreadsheet does not take for a formula: a text that begins
+    as one gets a mark for text before it."""
+    if not isinstance(value, str) or not re.match(r"\s*[=+\-@]\s*\S", value):
+        return value
+    try:
+        float(value)
+    except ValueError:
+        return f"'{value}"
+    return value
+
+
 def write_csv(
     path: Path,
     columns: Sequence[str],
@@ -52,7 +65,8 @@ def write_csv(
     """Write a table with all digits, below remarks; return its path."""
     text = io.StringIO(newline="")
     text.writelines(f"{line}\n" for line in disk.remarks("#", remarks))
-    csv.writer(text).writerows([list(columns), *rows])
+    cells = ([text_cell(value) for value in row] for row in [columns, *rows])
+    csv.writer(text).writerows(cells)
     return disk.write(path, text.getvalue())
 
 

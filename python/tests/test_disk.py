@@ -1,27 +1,41 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of users: read as text, and written whole or not at all."""
+import argparse
+import csv
 import errno
 import io
 import os
+import shutil
 import subprocess
 import tomllib
 import unittest
 import unittest.mock
 from collections.abc import Callable
-from contextlib import redirect_stderr
+from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
-from made_up_state import Temporary
+import numpy as np
+import test_log
+import test_parameters_runs
+from made_up_state import Temporary, made_up
 from matplotlib.figure import Figure
+from test_band import KNOWN
+from test_error_bar import ErrorBar
 
 from caisson import command_line
-from caisson.__main__ import GROUPS
+from caisson.__main__ import GROUPS, main
 from caisson import disk
+from caisson.commands import park, park_rows
 from caisson.disk import InputError
+from caisson.error import error_bar
+from caisson.export.command import FORMS
 from caisson.paths import ROOT
+from caisson.study import Options
+from caisson.table import write_csv
 from caisson.terminal import CLEAR, PlainText
 
+EXPORT = "caisson.export.command"
 FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
@@ -78,7 +92,7 @@ class Writing(Temporary):
 
     def names(self) -> list[str]:
         """Return what the directory has."""
-        return sorted(os.listdir(self.path))
+        return sorted(set(os.listdir(self.path)) - {disk.RECORD})
 
     def test_a_full_disk(self) -> None:
         for name in ("os.fsync", "pathlib.Path.replace"):
@@ -128,6 +142,240 @@ class Writing(Temporary):
         self.assertEqual(self.names(), ["earlier_7", "earlier_8", "earlier_9", "old"])
         self.assertEqual((self.path / "earlier_8/old").read_text("utf-8"), "mine")
         self.assertEqual((self.path / "earlier_9/old").read_text("utf-8"), "x")
+
+    def test_own_and_other_files(self) -> None:
+        """A file that we wrote is replaced, one of others or one that was changed goes
+        to earlier_N; as do those of another name where one that differs is removed."""
+        new = self.path / "new"
+        with redirect_stderr(io.StringIO()) as said:
+            for text in ("a", "b", "c"):
+                disk.write(new, text)
+            self.assertEqual((self.names(), said.getvalue()), (["new", "old"], ""))
+            new.write_text("C", encoding="utf-8")
+            disk.write(new, "d")
+            disk.write(self.old, "e")
+            with disk.all_or_none():
+                disk.write(new, "f")
+            new.write_text("F", encoding="utf-8")
+            disk.remove(new)
+            disk.remove(self.old)
+        self.assertEqual(self.names(), ["earlier_1", "earlier_2"])
+        kept = [path.read_text("utf-8") for path in sorted(self.path.glob("e*/*"))]
+        self.assertEqual(kept, ["C", "mine", "F"])
+        self.assertIn(
+            f"kept: {self.old} is now {self.path}/earlier_1/old", said.getvalue()
+        )
+
+    def test_an_input(self) -> None:
+        """It is never replaced, also not by --overwrite."""
+        disk.begin([self.old])
+        self.addCleanup(disk.begin, [])
+        disk.write(self.old, "free")
+        disk.read_bytes(self.old)
+        disk.write(self.old, "free")  # as it is
+        for overwrite in (None, True):
+            with self.assertRaisesRegex(InputError, f"{self.old} is an input of this"):
+                with disk.all_or_none(overwrite):
+                    disk.write(self.old, "x")
+
+    def test_owner(self) -> None:
+        """A directory has the results of one file."""
+        one, two = self.path / "a/t.csv", self.path / "b/t.csv"
+        disk.claim(self.path / "r", one, "choose another")
+        disk.claim(self.path / "r", one, "choose another")
+        disk.write(self.path / "r/x", "x")
+        with self.assertRaisesRegex(InputError, f"r has the results of {one}, and not"):
+            disk.claim(self.path / "r", two, "choose another")
+        shutil.move(self.path / "r", self.path / "s")
+        disk.claim(self.path / "s", one, "choose another")
+
+    def test_formulas(self) -> None:
+        """No text of a table is a formula of a spreadsheet, and numbers stay."""
+        cells = ["=1+1", "+A1", "-A1", "@x", " =1", "-1.5e3", "+2", "-", "a=1", "=", 3]
+        write_csv(self.path / "t.csv", ["x"] * len(cells), [cells])
+        with (self.path / "t.csv").open(encoding="utf-8") as file:
+            found = list(csv.reader(file))[1]
+        self.assertEqual(
+            found,
+            ["'=1+1", "'+A1", "'-A1", "'@x", "' =1"]
+            + ["-1.5e3", "+2", "-", "a=1", "=", "3"],
+        )
+
+
+class Commands(Temporary):
+    """Every command that writes, once more over what it has written and a user has
+    changed: nothing of it is lost."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        tiny = Path(__file__).with_name("tiny_run")
+        self.run_of_tiny = Path(shutil.copytree(tiny, self.path / "run"))
+        self.stack = ExitStack()
+        self.addCleanup(self.stack.close)
+        self.addCleanup(disk.begin, [])
+
+        def savefig(_: object, file: Any, **__: object) -> None:
+            file.write(b"a picture")  # to draw it would take a second each
+
+        for name in ("matplotlib.figure.Figure.savefig",):
+            self.stack.enter_context(unittest.mock.patch(name, savefig))
+
+    def call(self, *words: object) -> str:
+        """Call a command; return what it says, whatever its status."""
+        with redirect_stdout(io.StringIO()) as said, redirect_stderr(said):
+            main([str(word) for word in words])
+        return said.getvalue()
+
+    def files(self) -> dict[Path, bytes]:
+        """Return all files there are with their contents."""
+        every = filter(Path.is_file, self.path.rglob("*"))
+        return {path: path.read_bytes() for path in every if path.name != disk.RECORD}
+
+    def check(self, command: Any) -> None:
+        """Call a command twice, the second time over its files with a byte changed."""
+        before = self.files()
+        said = command()
+        new = [path for path in self.files() if path not in before]
+        self.assertTrue(new, said)
+        for path in new:
+            data = path.read_bytes()
+            last = bytes([(data or b" ")[-1] ^ 1])
+            is_study = path.suffix == ".toml"  # it is read before it is replaced
+            path.write_bytes(data + b"#" if is_study else data[:-1] + last)
+        changed = {path: path.read_bytes() for path in new}
+        said = command()
+        lost = set(changed.values()) - set(self.files().values())
+        names = [path.name for path, data in changed.items() if data in lost]
+        # the verdict goes into run.json, which keeps all that it has
+        self.assertEqual([x for x in names if x != "run.json"], [], said)
+
+    def test_results(self) -> None:
+        run, state = self.run_of_tiny, made_up()
+        patch = unittest.mock.patch(f"{EXPORT}.read_state", return_value=state)
+        self.stack.enter_context(patch)
+        words: list[tuple[object, ...]] = [("plot", run), ("compare", run)]
+        export = ("export", run, "--spacing", 0.9, "--radius", 4, "--depth", 4, "--to")
+        words += [(*export, form) for form in FORMS]
+        for command in words:
+            with self.subTest(command=command[0], form=command[-1]):
+                self.check(lambda c=command: self.call(*c))
+        points = self.path / "points.csv"
+        points.write_text("r_m,z_m\n1,-1\n", encoding="utf-8")
+        place = ("--points", points, "--output", points, "--overwrite")
+        said = self.call("export", run, "--to", "csv", *place)
+        self.assertIn(f"{points} is an input of this command", said)
+
+    def test_log(self) -> None:
+        """Also where an output is the input."""
+        vessel = test_log.Vessel()
+        vessel.path, vessel.own = self.path, self.path / "own"
+        vessel.file = self.path / "measured.csv"
+        vessel.write_runs()
+        vessel.write_log(test_log.BEST, 5.0)
+        page = unittest.mock.patch("caisson.report.page.html", return_value="page")
+        self.stack.enter_context(page)
+        self.check(lambda: self.call("report", vessel.own))
+        self.check(lambda: self.call("log", vessel.own, vessel.file))
+        self.check(lambda: self.call("log", vessel.own, "--blank"))
+        table = vessel.own / "vessel.csv"
+        shutil.copyfile(vessel.file, table)
+        said = self.call("log", vessel.own, table)
+        self.assertIn(f"log: {table} is an input of this command", said)
+        self.assertEqual(table.read_bytes(), vessel.file.read_bytes())
+
+    def test_set_up(self) -> None:
+        """suggest, cpt and the scenes of park, without the program."""
+        cone, scene = self.path / "t.csv", self.path / "own.prm"
+        depths = np.arange(0.5, 8, 0.1)
+        rows = [f"{z:.1f},{2 + z:.2f},{20 + 10 * z:.1f}" for z in depths]
+        cone.write_text("\n".join(["depth_m,qc_MPa,fs_kPa", *rows]), encoding="utf-8")
+        out = self.path / "out"
+        size = (
+            "--diameter",
+            "8",
+            "--skirt",
+            "6",
+            "--wall",
+            "30mm",
+            "--weight",
+            "3000kN",
+        )
+        layer = ("--layer", "0: phi = 33, E = 20 MPa")
+        for name, value in (("query", "valid"), ("entries_of_layers", KNOWN)):
+            patch = unittest.mock.patch(f"caisson.suggest.{name}", return_value=value)
+            self.stack.enter_context(patch)
+        self.check(lambda: self.call("suggest", scene, *size, *layer))
+        self.check(lambda: self.call("cpt", cone, "--out", out))
+        for words in (("cpt", cone, *size, "--out", out), ("cpt", cone, "--out", out)):
+            self.check_kept(out, *words)
+        table = self.path / "p.csv"
+
+        def prepare(weight: str) -> str:
+            rows = ["name,diameter_m,skirt_m,wall_mm,layers,weight_kN"]
+            rows += [f"{name},8,6,30,0: x,{weight}" for name in ("A", "=B")]
+            table.write_text("\n".join(rows), encoding="utf-8")
+            with redirect_stderr(io.StringIO()) as said:
+                park.prepare(table, 10, self.path / "park")
+            return said.getvalue()
+
+        def write_all(options: argparse.Namespace) -> list[str]:
+            disk.write(options.file, f"set Title = {options.weight}\n")
+            return []
+
+        table.touch()
+        weights = iter("123")
+        with unittest.mock.patch("caisson.suggest.write_all", write_all):
+            with redirect_stdout(io.StringIO()):
+                self.check(lambda: prepare(next(weights)))
+                other = self.path / "b/p.csv"
+                other.parent.mkdir()
+                shutil.copyfile(table, other)
+                with self.assertRaisesRegex(InputError, f"results of {table}, and not"):
+                    park.prepare(other, 10, self.path / "park")
+
+    def check_kept(self, directory: Path, *words: object) -> None:
+        """Call a command over files of a user."""
+        for path in self.files():
+            if path.is_relative_to(directory):
+                path.write_text("mine", encoding="utf-8")
+        before = self.files()
+        said = self.call(*words)
+        self.assertIn("exists, and differs", said)
+        self.assertEqual(self.files(), before)
+
+    def test_names_of_a_park(self) -> None:
+        """A position has not the name of an estimate of another one."""
+        rows = [park_rows.Position(i, x, {}) for i, x in enumerate(("A", "B", "a_Low"))]
+        (said,) = park_rows.wrong_names(Path("p.csv"), rows)
+        self.assertRegex(
+            said, "p.csv, row 2, .*: it is that of the low estimate of row 0"
+        )
+
+    def test_studies(self) -> None:
+        """study, and the evaluation of error-bar."""
+        study = test_parameters_runs.Commands()
+        study.path = self.path
+        (self.path / "a.prm").touch()
+        study.write(test_parameters_runs.PHI + "values = [30, 34]")
+        study.study()
+        for path in (self.path / "results/s").glob("*.*"):
+            path.unlink()
+        self.check(lambda: study.study("--evaluate")[1])
+        file = self.path / "s2.toml"
+        text = (self.path / "s.toml").read_text(encoding="utf-8")
+        file.write_text(f'id = "s"\n{text}', encoding="utf-8")
+        said = self.call("study", file, "--results", self.path / "results")
+        self.assertRegex(said, "s has the results of .*s.toml, and not of .*s2.toml")
+        bar = ErrorBar()
+        bar.path = self.path
+        made = bar.study()
+
+        def evaluate() -> str:
+            with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as said:
+                error_bar.evaluate([made], Options(), 0)
+            return said.getvalue()
+
+        self.check(evaluate)
 
 
 class Damage(Temporary):

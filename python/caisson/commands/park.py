@@ -25,11 +25,12 @@ the latter after all of them; or the workers of Dask take the runs, with --dask
 tcp://HOST:8786.
 """
 import argparse
+import re
 from pathlib import Path
 from typing import Any
 
 from caisson import disk, study_command
-from caisson.commands import park_rows
+from caisson.commands import park_rows, park_study
 from caisson.disk import InputError
 from caisson.paths import PROGRAM, RESULTS, short
 from caisson.study import file_name, read_toml
@@ -66,14 +67,28 @@ def known_in(file: Path) -> dict[str, Any]:
     return {run["position"]["name"]: run["position"] for run in runs}
 
 
+def cost_of(name: str, file: Path) -> str:
+    """Return how long the run of a position takes and how many warnings it has, by what
+    `caisson suggest` has said of it."""
+    said = disk.read_text(file) if file.is_file() else ""
+    time = re.search(r"^ *duration +([^:\n]+)", said, re.M)
+    n = len(re.findall(r"^ *warning\b", said, re.I | re.M))
+    warnings = "1 warning" if n == 1 else f"{n} warnings"
+    how_long = time[1] if time else "duration not known"
+    return f"{name}: {how_long}, {warnings}: {short(file)}"
+
+
 def prepare(table: Path, error: int, folder: Path) -> Path:
     """Write the scenes of a table and their study into a folder, as far as they are not
     there; return the study. Raises InputError."""
     positions, study = park_rows.read(table, error), folder / STUDY
-    known, scenes = known_in(study), folder / "scenes"
     wrong = park_rows.wrong_names(table, positions)
     if wrong:
         raise InputError("\n".join(wrong))
+    disk.claim(folder, table, "give another folder by --out DIR")
+    for name in (STUDY, park_study.PAGE, park_study.TABLE, park_study.PICTURE):
+        disk.refuse_input(folder / name)
+    known, scenes = known_in(study), folder / "scenes"
     new = [
         p
         for p in positions
@@ -82,6 +97,8 @@ def prepare(table: Path, error: int, folder: Path) -> Path:
     ]
     park_rows.write_scenes(table, new, scenes)
     print(f"positions: {len(positions)}, of which new or changed: {len(new)}")
+    for position in positions:
+        print(cost_of(position.name, scenes / f"{file_name(position.name)}.txt"))
     return disk.write(study, park_rows.study_of(table, positions, folder))
 
 

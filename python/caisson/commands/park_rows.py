@@ -10,14 +10,13 @@ import argparse
 import contextlib
 import csv
 import io
-import os
 import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from caisson import disk, paths, suggest
-from caisson.band import BEST, ESTIMATES, member_of
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
 from caisson.design import cone_file, cone_grid
 from caisson.design.quantity import EVERY, NUMBER
 from caisson.disk import InputError
@@ -159,6 +158,13 @@ def wrong_names(path: Path, positions: Sequence[Position]) -> list[str]:
                 " give it another name"
             )
         seen.setdefault(place, position.row)
+    for place, row in seen.items():
+        for estimate in (LOW, HIGH):
+            if (other := seen.get(f"{place}_{estimate}")) is not None:
+                found.append(
+                    f"{path}, row {other}, column name: it is that of the {estimate}"
+                    f" estimate of row {row}; give it another name"
+                )
     return found
 
 
@@ -179,7 +185,7 @@ def write_scenes(path: Path, positions: Sequence[Position], folder: Path) -> Non
     with a line for each row that is wrong."""
     wrong, said = wrong_names(path, positions), dict[Path, str]()
     folder.mkdir(parents=True, exist_ok=True)
-    with disk.all_or_none(overwrite=True):
+    with disk.all_or_none():
         for position in positions if not wrong else ():
             scene = folder / f"{file_name(position.name)}.prm"
             try:
@@ -188,10 +194,9 @@ def write_scenes(path: Path, positions: Sequence[Position], folder: Path) -> Non
                 wrong.append(complaint(path, position, str(error)))
         if wrong:
             raise InputError("\n".join(wrong))
-        for estimate in ESTIMATES:  # of another band than that of now
+        for estimate in (LOW, HIGH):  # of another band than that of now
             for scene in said:
-                with contextlib.suppress(FileNotFoundError):
-                    os.unlink(member_of(scene, estimate))
+                disk.remove(member_of(scene, estimate))
     names = {f"{file_name(p.name)}.prm": p.name for p in positions}
     for scene, text in said.items():
         disk.write(scene.with_suffix(".txt"), text)

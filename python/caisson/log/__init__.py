@@ -125,9 +125,9 @@ def write(directory: Path, measured: Path) -> tuple[list[Path], list[str]]:
     numbers = [[digits(x, 4) for x in column] for column in columns.values()]
     rows = list(zip(*numbers, beyond))
     on_page = [*said, *words.of_gauges(log)]
-    files = [
-        picture.draw(directory / PICTURE, expected, log, bins, found),
+    files = [  # the table first, whose name the log may have
         write_csv(directory / TABLE, [*columns, EXTRAPOLATED], rows),
+        picture.draw(directory / PICTURE, expected, log, bins, found),
         write_page(directory / PAGE, expected, on_page, columns, beyond),
     ]
     return files, said

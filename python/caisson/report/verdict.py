@@ -243,5 +243,5 @@ def keep(run: Results) -> str:
         more[LIMITS] = rows
     new = {k: v for k, v in known.items() if k not in (KEY, END, LIMITS)} | more
     if new != known:
-        disk.write(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
+        disk.update(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
     return found.text
