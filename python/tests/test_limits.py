@@ -195,11 +195,33 @@ class Governing(WithPage):
         run = self.run_of()
         rows = installation.quarters_of(run, self.installation(run), None, 4.5)["rows"]
         names = [row[0] for row in rows]
-        for kind in ("pump: Water/Largest suction not given", "plug of clay: none"):
+        for kind in ("pump: Water/Largest suction not given", "plug of clay: no clay"):
             self.assertIn(kind, names)
         for name in (limits.COMPUTED, limits.PIPING, limits.BOILING):
             self.assertIn(name, names)
         self.assertIn("plug meets the lid: at about 6.7 m", names)
+
+    def test_stopped_before_a_quarter_under_suction(self) -> None:
+        """A run to 2.4 m, of which the first quarter is 1.25 m, where the weight
+        suffices, or 5 m, has its limits at 2.4 m, and denies none of its entries."""
+        layers = [SAND, {**CLAY, "top_depth_m": 12.0}]
+        pump = {"Water/Largest suction": "90e3"}
+        for planned, n in ((5.0, 1), (20.0, 0)):
+            run = self.run_of({"layers": layers}, pump)
+            down = run.history["penetration_m"] < 2.401
+            table = {name: values[down] for name, values in run.history.items()}
+            write_columns(self.path / "history.csv", table)
+            run = Results(self.path)
+            found = self.installation(run)
+            answer = installation.quarters_of(run, found, None, planned)
+            self.assertEqual(answer["heads"][1 + n], "reached: 2.4 m")
+            rows = {row[0]: row[1:] for row in answer["rows"]}
+            for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
+                self.assertGreater(float(rows[name][n]), 9.0, name)
+            self.assertTrue(any(name.startswith(limits.LID) for name in rows))
+            self.assertTrue(any(name.startswith(limits.SHELL) for name in rows))
+            absent = [name for name in rows if ": " in name and "lid" not in name]
+            self.assertEqual(absent, ["plug of clay: none at these depths"])
 
     def test_load_of_a_shell(self) -> None:
         """wall_pressure.csv has 25 kPa down to the mudline at 4 m, and 20 below."""

@@ -152,13 +152,13 @@ class Cards(WithPage):
         )
         shown.append(content.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
         self.assertAlmostEqual(content.axis_end(shown), 46.35)
-        none = limits.absent_of({limits.BOILING: np.empty(0)})
+        found.absent = ["pump: not given", "plug of clay: no clay"]
         for limit, words in ((46.0, ""), (47.0, "water boils at 47 kPa")):
             found.limits = {limits.BOILING: np.full(2, limit)}
             said = content.beyond_the_chart(found, shown, 1.0)
             self.assertIn(words, said)
             self.assertEqual("Beyond" in said, bool(words))
-            for kind in none:
+            for kind in found.absent:
                 self.assertIn(kind, said)
         found.lid = 1.4
         self.assertIn("lid at about 1.4 m", content.beyond_the_chart(found, shown, 1.0))

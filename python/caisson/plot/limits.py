@@ -55,14 +55,7 @@ LIMITS = {
     LID: Limit(LID, "plug heave", "#5d4037"),
     SHELL: Limit("wall buckles", "shell buckling", "#1a1aff", "on loads, DNV-OS-C101"),
 }
-ABSENT = {  # kind: why a run has no limit of it
-    "piping": "no suction while water flows through the plug",
-    "plug of clay": "none",
-    "water boils": "Water/Water depth not given",
-    "pump": "Water/Largest suction not given",
-    LID: "length of the skirt not known",
-    "wall buckles": "wall not known",
-}
+NONE_HERE = "none at these depths"  # where the scene has what it takes
 STEEL = (  # entries of section Design, as shell.Wall has them
     *("Steel yield strength", "Steel Youngs modulus"),
     *("Fixity depth over diameter", "Ring stiffener spacing"),
@@ -112,10 +105,31 @@ def uncovered_in_words(run: Results, at: np.ndarray) -> str:
     )
 
 
-def absent_of(found: dict[str, np.ndarray]) -> list[str]:
-    """Return the kinds of limits of which a run has none, each with its reason."""
+def why_absent(run: Results, kind: str) -> str:
+    """Return why a run has no limit of a kind: what its scene lacks, else that there is
+    none at the depths that are asked for."""
+    if kind == LIMITS[COMPUTED].kind and "critical_gradient" not in run.history:
+        return "no water flows through the plug"
+    if kind == LIMITS[REVERSE_BEARING].kind:
+        try:
+            soils = theory.soils_of(theory.site_of(run), inf)
+        except theory.NotApplicable as reason:
+            return str(reason)
+        return NONE_HERE if "clay" in dict(soils).values() else "no clay"
+    if kind == LIMITS[PUMP].kind and pump_limit(run) is None:
+        return "Water/Largest suction not given"
+    if kind == LID and not run.scene.get("skirt_length_m"):
+        return "the body has no skirt with a lid"
+    if kind == LIMITS[SHELL].kind and wall_of(run) is None:
+        return "the body has no wall of steel"
+    return NONE_HERE
+
+
+def absent_of(run: Results, found: dict[str, np.ndarray]) -> list[str]:
+    """Return the kinds of limits that found lacks, each with its reason."""
     known = {LIMITS[name].kind for name in found}
-    return [f"{kind}: {why}" for kind, why in ABSENT.items() if kind not in known]
+    kinds = dict.fromkeys(limit.kind for limit in LIMITS.values())
+    return [f"{x}: {why_absent(run, x)}" for x in kinds if x not in known]
 
 
 def sources_of(run: Results, found: dict[str, np.ndarray]) -> str:

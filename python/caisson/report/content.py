@@ -11,7 +11,7 @@ from caisson.evaluation import depths_of
 from caisson.curves import error_band
 from caisson.plot import design, forces, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
-from caisson.plot.limits import BOILING, LID, LIMITS, absent_of
+from caisson.plot.limits import BOILING, LID, LIMITS
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
 from caisson.table import by_rows
@@ -214,10 +214,9 @@ def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> 
     if found.lid is not None and found.lid > bottom:
         words.append(f"{found.named(LID)} at about {found.shown.place(found.lid, 1)}")
     beyond = f"Beyond the chart: {'; '.join(words)}. " if words else ""
-    absent = absent_of(found.limits) if found.limits else []
-    return (
-        beyond + f"No limit of {'; of '.join(absent)}." if absent else beyond
-    ).strip()
+    if found.absent:
+        beyond += f"No limit of {'; of '.join(found.absent)}."
+    return beyond.strip()
 
 
 def suction_curves(

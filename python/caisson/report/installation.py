@@ -74,6 +74,7 @@ class Installation:
     factors: dict[str, float] = field(default_factory=dict)
     # m, top of the soft layer below the tip that governs reverse bearing, nan if none
     soft_below: np.ndarray = field(default_factory=lambda: np.empty(0))
+    absent: list[str] = field(default_factory=list)  # kinds of limits, and why
     lid: float | None = None  # m, the depth at which the plug would meet it
     gradient: np.ndarray = field(default_factory=lambda: np.empty(0))  # over critical
     heave: np.ndarray = field(default_factory=lambda: np.empty(0))  # m
@@ -196,9 +197,9 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
         found.room = float(length) - at - found.heave
         factored = float(length) - at - factors[limits.LID] * found.heave
         found.lid = limits.lid_depth(at, factored)
-    if found.has_suction:
-        found.limits, found.factors = limits.limits_of(run, at), factors
-        found.soft_below = theory.soft_below(theory.site_of(run), at)
+    found.limits, found.factors = limits.limits_of(run, at), factors
+    found.absent = limits.absent_of(run, found.limits)
+    found.soft_below = theory.soft_below(theory.site_of(run), at)
     found.rest = rest_of_run(run.history)
     if scene.get("diameter_m"):
         if "seepage_flow_m3_s" in numbers:
@@ -372,15 +373,18 @@ def quarters_of(
     run: Results, found: Installation, end: float | None, planned: float | None
 ) -> dict[str, Any]:
     """Return the table of required suction and all limits at quarters of the planned
-    penetration (m); end: where suction ends (m), None where it does not."""
+    penetration (m), and at the depth that a run has reached before it; end: where
+    suction ends (m), None where it does not."""
     if not found.has_suction or not planned:
         return {}
     shown, reached = found.shown, float(found.depth[-1])
     quarters = wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])
     deep = wanted <= reached + 1e-3 * planned
     at = wanted[deep & (wanted > run.history[DEPTH][0])]
-    if end is not None:
-        at, wanted = np.union1d(at, end), np.union1d(wanted, end)
+    last, mark = (reached, "reached") if end is None else (end, "feasible")
+    is_new = last < planned and not np.isclose(wanted, last, atol=1e-3 * planned).any()
+    if is_new or end is not None:
+        at, wanted = np.union1d(at, last), np.union1d(wanted, last)
     known = installation_of(run, Rate(), at) if len(at) else None
     places = [list(at).index(x) if x in at else None for x in wanted]
     if known is None:
@@ -399,7 +403,7 @@ def quarters_of(
         if name == limits.LID and found.lid is not None:
             label += f": at about {shown.place(found.lid, 1)}"
         rows.append([label, *cells_of(known, values, places)])
-    rows += [[words] + ["-"] * len(wanted) for words in limits.absent_of(known.limits)]
+    rows += [[words] + ["-"] * len(wanted) for words in known.absent]
     least = [
         "" if i is None or known.required[i] <= NOTHING else known.governing_in_words(i)
         for i in places
@@ -408,7 +412,7 @@ def quarters_of(
     shares = {
         float(x): f"{100 * x / planned:.0f} %: {shown.place(x)}" for x in quarters
     }
-    heads = [shares.get(float(x), f"feasible: {shown.place(x)}") for x in wanted]
+    heads = [shares.get(float(x), f"{mark}: {shown.place(x)}") for x in wanted]
     head = shown.named("limit of the suction (kPa)")
     return {"heads": [head, *heads], "rows": rows, "depths": wanted}
 
