@@ -52,6 +52,12 @@ def short(path: Path) -> str:
     return str(path)
 
 
+def without_user(path: Path) -> str:
+    """Return the path as short() has it, and only the last name of one elsewhere."""
+    found = short(path)
+    return path.resolve().name if Path(found).is_absolute() else found
+
+
 def seen(path: Path) -> str:
     """Return the path from the current folder, or the whole one where it is shorter."""
     return min(os.path.relpath(path), str(path.resolve()), key=len)

@@ -5,6 +5,7 @@ import functools
 import io
 import json
 import math
+import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from caisson import disk, run_shape
+from caisson import disk, paths, run_shape
 from caisson.lock import is_locked
 from caisson.disk import InputError
 from caisson.shown import Units, units_of
@@ -33,7 +34,9 @@ class Read(dict[str, Any]):
         self.path = path
 
     def __missing__(self, name: str) -> NoReturn:
-        raise ResultsError(f"{self.path} has no {name}")
+        arrays = [k for k, values in self.items() if isinstance(values, np.ndarray)]
+        others = f"; it has {', '.join(arrays)}" if arrays else ""
+        raise ResultsError(f"{self.path} has no {name}{others}")
 
 
 def read_table(path: Path) -> Table:
@@ -195,11 +198,14 @@ class Results:
 
     @property
     def title(self) -> str:
-        """The scene's title or file, and where the results are."""
+        """The scene's title or file, and the folder of the results; no folder of a user
+        is in it, as pictures and exported files, which have it, are passed on."""
         if not self.known:
-            return str(self.directory)
+            return paths.without_user(self.directory)
         names = [str(self.known.get(key) or "") for key in ("title", "scene_file")]
-        names.append(f"results in {self.directory}")
+        names[0] = re.sub(", on a mesh for an error of about .*", "", names[0])
+        names[1] = paths.without_user(Path(names[1])) if names[1] else ""
+        names.append(f"results in {paths.without_user(self.directory)}")
         return disk.one_line(", ".join(filter(None, names)))
 
     @property

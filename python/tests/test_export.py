@@ -32,12 +32,12 @@ from made_up_state import (
 from plain_solver import Deck, forces_of, read_deck
 
 from caisson import __main__ as program
-from caisson.results import ResultsError, read_table
+from caisson.results import Results, ResultsError, read_table
 from caisson.export import command, decks, tables
-from caisson.export.exported import Exported
+from caisson.export.exported import Exported, force_of_run
 from caisson.export.interpolate import interpolate
 from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
-from caisson.export.text import about
+from caisson.export.text import about, judged
 
 CCX = shutil.which("ccx")
 ZONES = {"inside", "outside_near", "outside", "below_tip"}
@@ -182,6 +182,30 @@ class Balance(Temporary):
         text = "\n".join(about(found))
         self.assertRegex(text, r"OUTER_WALL: .* run 30, of the interpolated stress ")
         self.assertRegex(text, r"Vertical balance: .* kN, which differs by 0\.\d+ %")
+
+    def test_no_folder_of_a_user(self) -> None:
+        """Of a folder that is not in the project, a title has the last name only."""
+        run, scene = Results(Path("/home/anna/secret/run_7")), "/home/anna/mine.prm"
+        known = {"title": "a caisson", "scene_file": scene}
+        with unittest.mock.patch.object(Results, "known", known):
+            self.assertEqual(run.title, "a caisson, mine.prm, results in run_7")
+
+    def test_judged(self) -> None:
+        """A stress that bears a tenth more than the run at a wall, or 2 % more than the
+        weight, is warned of, and what it is good for is said."""
+        found = on_mesh(made_up(noise=0.02))
+        for name in found.wall:
+            found.wall[name] = force_of_run(found.state, name) or 0.0
+        found.boundary = found.weight
+        self.assertIn("It is a state to begin with", judged(found))
+        found.boundary = 1.019 * found.weight
+        self.assertNotIn("WARNING", judged(found))
+        found.boundary = 0.97 * found.weight
+        self.assertIn("WARNING: the stress differs from the run by 3 %", judged(found))
+        found.boundary = found.weight
+        found.wall["TIP"] *= 1.23
+        self.assertRegex(judged(found), "WARNING: .* by 23 % at TIP; limits: 10 %")
+        self.assertIn(judged(found), about(found))
 
     def test_friction_of_the_stress(self) -> None:
         """What the walls bear is the integral of the shear stress beside them."""

@@ -28,7 +28,7 @@ from caisson.export.mesh import Mesh, Window, check_spacing, default_window, reg
 from caisson.export.places import read_places
 from caisson.export.springs import Springs, springs_of
 from caisson.export.state import State, read_state
-from caisson.export.text import about, about_state
+from caisson.export.text import POINTS, about, about_state
 
 Writer = Callable[[Path, Exported], None]
 # form: end of the file, and what writes it
@@ -121,7 +121,7 @@ def export_points(state: State, options: argparse.Namespace, path: Path) -> list
         raise ResultsError(f"--points is for --to csv, not {options.to}")
     at = read_places(options.points, state)
     tables.write_points(path, state, at, interpolate(state, at))
-    return about_state(state)
+    return [*about_state(state), POINTS]
 
 
 def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:

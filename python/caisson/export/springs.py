@@ -25,7 +25,7 @@ import numpy as np
 
 from caisson.loaded import LoadedRun
 from caisson.nature import GRAVITY, WATER_DENSITY
-from caisson.paths import short
+from caisson.paths import without_user
 from caisson.results import ResultsError, Table
 from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus
 
@@ -303,7 +303,7 @@ def springs_of(run: LoadedRun, weight: float) -> Springs:
             stress = curve(values / (np.pi * area))
             springs.append(Spring(place, at * (place == "tip"), np.pi * area, *stress))
     return Springs(
-        f"{run.summary.get('title') or 'a run'}, {short(run.directory)}",
+        f"{run.summary.get('title') or 'a run'}, {without_user(run.directory)}",
         direction,
         at,
         scene["diameter_m"],

@@ -11,7 +11,7 @@ from caisson import disk
 from caisson.export.exported import Exported
 from caisson.export.interpolate import Values
 from caisson.export.state import STRESS, State
-from caisson.export.text import about, about_state
+from caisson.export.text import POINTS, about, about_state
 
 Columns = dict[str, np.ndarray]
 # of the soil above the tip; below it the zones are as high; none is lower than a cell
@@ -66,7 +66,7 @@ def write_points(path: Path, state: State, at: np.ndarray, values: Values) -> No
     columns = dict(zip(("r_m", "z_m"), at.T))
     columns |= columns_of(state, values, values.stress, at[:, 1])
     columns |= tensor("scatter", values.scatter)
-    write_table(path, about_state(state), columns)
+    write_table(path, [*about_state(state), POINTS], columns)
 
 
 def write_vtu(path: Path, state: Exported) -> None:

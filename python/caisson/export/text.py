@@ -17,6 +17,13 @@ NOT_BALANCED = (
     "The stress is interpolated between the points of the run. The first step of the"
     " other program must find its equilibrium."
 )
+POINTS = (
+    "No balance is known of single points: near the wall they may be far from what bears"
+    " it; --mesh or a grid shows how far."
+)
+# shares above which the stress does not stand for the forces of the run
+LARGEST_OF_WALL, LARGEST_OF_WEIGHT = 0.1, 0.02
+LEAST_WALL = 0.1  # of all forces on the body; smaller ones count as this
 
 
 def percent(share: float) -> str:
@@ -47,9 +54,10 @@ def about_state(state: State) -> list[str]:
 def about_balance(state: Exported) -> list[str]:
     """Return the lines on the balance of the whole, and on the forces on the wall."""
     lines = [
+        judged(state),
         f"Vertical balance: the weight of the soil is {state.weight / 1e3:.6g} kN, and"
         f" the stress on its boundary carries {state.boundary / 1e3:.6g} kN, which"
-        f" differs by {percent(abs(state.boundary / state.weight - 1))}."
+        f" differs by {percent(abs(state.boundary / state.weight - 1))}.",
     ]
     for name, force in state.wall.items():
         run = force_of_run(state.state, name)
@@ -62,6 +70,40 @@ def about_balance(state: Exported) -> list[str]:
     tension = state.values.stress[:, :3].sum(axis=1) > 0
     share = percent(volumes[tension].sum() / volumes.sum())
     return [*lines, f"Mean stress is tensile in {share} of the volume."]
+
+
+def differences(state: Exported) -> dict[str, float]:
+    """Return by how much the stress differs from the weight of the soil, and from the
+    forces of the run on the walls and the tip, as shares of 1."""
+    known = {name: force_of_run(state.state, name) for name in state.wall}
+    runs = {name: force for name, force in known.items() if force is not None}
+    least = LEAST_WALL * sum(map(abs, runs.values()))
+    found = {
+        name: abs(state.wall[name] - force) / max(abs(force), least)
+        for name, force in runs.items()
+        if force or least
+    }
+    return {"the weight": abs(state.boundary / state.weight - 1), **found}
+
+
+def judged(state: Exported) -> str:
+    """Return what the stress is good for, in a line."""
+    good = "It is a state to begin with, once the other program has found equilibrium"
+    beyond = [
+        f"{percent(share)} at {name}"
+        for name, share in differences(state).items()
+        if share > (LARGEST_OF_WEIGHT if name == "the weight" else LARGEST_OF_WALL)
+    ]
+    limits = (
+        f"{percent(LARGEST_OF_WALL)} at a wall or tip, {percent(LARGEST_OF_WEIGHT)}"
+    )
+    if not beyond:
+        return f"{good}: it differs by at most {limits} of the weight."
+    return (
+        f"WARNING: the stress differs from the run by {', '.join(beyond)}; limits:"
+        f" {limits} of the weight. {good}; take no force or capacity of the caisson"
+        " from it without that: history.csv has the forces."
+    )
 
 
 def about_stiffness(state: State) -> list[str]:

@@ -16,7 +16,7 @@ from caisson.log.expected import Expected
 from caisson.log.forecast import Bins, Forecast
 from caisson.log.measured import Log, resistance_of
 from caisson.plot.suction import WHITE
-from caisson.plot.small import in_units, over_depth, with_note
+from caisson.plot.small import in_units, legend_below, over_depth, with_note
 
 GRAY, RED, BLUE, ORANGE = "0.45", "#c0392b", "#2166ac", "#d95f02"
 MARGIN = 1.15  # of the largest suction of the lines
@@ -111,7 +111,7 @@ def draw(
     )
     draw_forecast(axes, forecast)
     draw_log(axes, expected, log, bins, forecast.weight)
-    axes.legend(fontsize=8, framealpha=0.9, loc="best")
+    legend_below(axes, 2)
     with_note(figure, textwrap.fill(" ".join(words.of_source(expected)), 110))
     in_units(figure, expected.run.shown)
     return disk.save(figure, path)

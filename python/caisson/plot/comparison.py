@@ -19,7 +19,7 @@ from caisson import curve, curves, disk
 from caisson.plot import design
 from caisson.plot.forces import penetration
 from caisson.paths import distinct_ends, seen
-from caisson.plot.small import in_units, over_depth
+from caisson.plot.small import in_units, legend_below, over_depth
 from caisson.design.quantity import length
 from caisson.results import Results, ResultsError, Table
 from caisson.table import write_columns
@@ -114,7 +114,7 @@ def draw(picture: Path, histories: Histories, shown: Units = USUAL) -> Path:
         axes.axvline(0, color="0.6", linewidth=0.8)
         axes.invert_yaxis()
         over_depth(axes, label, "penetration of the tip (m)")
-        axes.legend(fontsize=8)
+        legend_below(axes)
     in_units(figure, shown)
     figure.set_layout_engine("tight")
     return disk.save(figure, picture)

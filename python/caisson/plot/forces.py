@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import band, theory
-from caisson.plot.small import fade, in_units, over_depth, with_note
+from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results, Table
 
 COLORS = {
@@ -25,6 +25,7 @@ WATER_COLOR = "#7b3294"
 FRICTION = ("inner friction", "outer friction")
 # where the penetration of a body is measured
 LOWEST = {"caisson": "skirt tip", "pile": "pile base", "box": "base"}
+BARS = 12  # over the depth of an error bar
 MEAN = 1.8  # width of the line of a running mean, and of no other
 
 
@@ -103,13 +104,17 @@ def draw_error_bar(
     color: str,
     label: str,
 ) -> None:
-    """Draw an error_band() times scale (one factor, or [n_rows]), if there is one."""
+    """Draw an error_band() times scale (one factor, or [n_rows]) as bars at some of its
+    depths, if there is one; a band is for methods and estimates."""
     if band is None:
         return
-    depth, low, high = band
-    axes.fill_betweenx(
-        depth, low * scale, high * scale, color=color, alpha=0.3, lw=0, label=label
-    )
+    table = np.array([band[0], band[1] * scale, band[2] * scale])
+    table = table[:, np.isfinite(table).all(axis=0)]
+    at = np.unique(np.linspace(0, max(table.shape[1] - 1, 0), BARS).astype(int))
+    depth, low, high = table[:, at[: table.shape[1]]]
+    middle, half = (low + high) / 2, np.abs(high - low) / 2
+    style = {"ecolor": color, "elinewidth": 1.2, "capsize": 2.5, "zorder": 2.1}
+    axes.errorbar(middle, depth, xerr=half, fmt="none", label=label, **style)
 
 
 def draw_error_bars(axes: Axes, bounds: Table) -> None:
@@ -153,8 +158,7 @@ def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
     depth = f"penetration of the {LOWEST.get(body, 'tip')} (m)"
     over_depth(axes, f"{name} (kN)", depth)
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(fontsize=8, framealpha=0.9, loc="upper right")
+    legend_below(axes, 2)
 
 
 def draw_panel(
@@ -190,16 +194,13 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
     if column_of("total") in history:
         draw_curve(axes, depth, history[column_of("total")], "total")
     for answer in filter(has_line, answers):
-        method = answer.method
-        for case, line, force in zip(method.cases, ("--", ":"), answer.band("total")):
-            axes.plot(
-                force / 1e3,
-                answer.depth,
-                color=method.color,
-                linewidth=1.4,
-                linestyle=line,
-                label=f"{answer.name}, {case}",
-            )
+        method, (low, high) = answer.method, answer.band("total")
+        style = {"facecolor": method.color, "alpha": 0.18, "linewidth": 0}
+        label = f"{answer.name}, {' to '.join(method.cases)}"
+        axes.fill_betweenx(answer.depth, low / 1e3, high / 1e3, label=label, **style)
+        for line, force in zip(("--", ":"), (low, high)):
+            edge = {"color": method.color, "linewidth": 0.9, "linestyle": line}
+            axes.plot(force / 1e3, answer.depth, **edge)
     set_limits(axes, depth, run.feasible_to)
     label_axes(axes, "total force, and by design methods", run.body)
 
@@ -241,7 +242,7 @@ def draw_over_depth(run: Results, depth: np.ndarray) -> Figure:
     site = theory.site_of(run)
     answers = theory.answers_to(site, max(depth.max(), 0))
     with_methods = not has_suction(run) and any(map(has_line, answers[1:]))
-    figure = Figure(figsize=(16.5 if with_methods else 11, 6.5))
+    figure = Figure(figsize=(16.5 if with_methods else 11, 7.5))
     figure.suptitle(run.title, fontsize=10)
     panels = figure.subplots(1, 3 if with_methods else 2)
     draw_panel(panels[0], run, tuple(COLORS), answers[0])

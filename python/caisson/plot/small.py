@@ -48,6 +48,13 @@ def over_depth(axes: Axes, label: str, depth: str, grid: str = "both") -> None:
     axes.set_ylabel(depth)
 
 
+def legend_below(axes: Axes, columns: int = 1) -> None:
+    """Put the legend of axes over depth below them, where it covers no curve."""
+    if axes.get_legend_handles_labels()[0]:
+        at = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.01)}
+        axes.legend(fontsize=8, frameon=False, ncols=columns, **at)
+
+
 def write_beside(
     axes: Axes, text: str, at: tuple[float, float], side: int, **style: Any
 ) -> None:

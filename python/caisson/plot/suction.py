@@ -11,7 +11,7 @@ from caisson.evaluation import rest_of_run
 from caisson.plot import band as between, limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar, penetration
-from caisson.plot.small import fade, in_units, over_depth, with_note
+from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results, Table
 from caisson import disk
 
@@ -269,19 +269,18 @@ def draw(directory: Path, run: Results) -> list[Path]:
     site, deepest = theory.site_of(run), max(depth.max(), 0)
     answers = methods.answers_of(site, np.linspace(0, deepest, 200))
     seeps = "critical_gradient" in history  # not in clay
-    figure = Figure(figsize=(14 if seeps else 10, 6.5))
+    figure = Figure(figsize=(14 if seeps else 10, 7.5))
     panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
     beyond = draw_suction(panels[0], run, answers)
     if seeps:
         draw_gradients(panels[1], run)
     draw_heave(panels[-1], run)
-    places = ("upper right", "lower left", "upper right")
-    for axes, place in zip(panels, places if seeps else places[::2]):
+    for axes in panels:
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
         fade(axes, run.feasible_to)
-        axes.legend(fontsize=8, framealpha=0.9, loc=place)
+        legend_below(axes, 2 if axes is panels[0] else 1)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)
     text = "\n".join(filter(None, [beyond, caption(answers, site), about]))

@@ -125,7 +125,8 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
         if bar is not None:
             at, low, high = down_to(end, *bar)
             label = f"{name}, error bar"
-            found.append(band(label, color, low / 1e3, high / 1e3, at))
+            area = band(label, color, low / 1e3, high / 1e3, at)
+            found.append(area | {"bars": True})
     found += method_curves(run, max(depth.max(), 0))
     found += range_curve(run, forces.column_of("total"), "total")
     for name, color in forces.COLORS.items():
@@ -230,7 +231,8 @@ def suction_curves(
     if bar is not None:
         at, *ends = down_to(end, *bar)
         low, high = (np.maximum(bound, 0) / 1e3 for bound in ends)
-        shown.append(band("required, error bar", "black", low, high, at))
+        area = band("required, error bar", "black", low, high, at)
+        shown.append(area | {"bars": True})
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
     label = "required, computed"
     return shown + own(label, "black", required, depth, end)

@@ -26,6 +26,7 @@ from caisson.report.scene import plug_area
 HOUR = 3600.0
 NOTHING = 5e-4  # of a unit of the tables
 NEARLY = 0.01  # of the largest flow
+LEAST_FLOW = 0.5  # m3/h, below which a flow is in l/min
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
@@ -235,7 +236,7 @@ def bar_in_words(run: Results, found: Installation) -> str:
     end = found.shown.length(float(f"{bounds.end:.4g}"))
     if found.depth[-1] <= bounds.end + 1e-2:
         return ""
-    return f"The error bar reaches to {end}."
+    return f"The error bar reaches to {end}; below, about its width there is shown."
 
 
 def in_range(
@@ -417,6 +418,13 @@ def quarters_of(
     return {"heads": [head, *heads], "rows": rows, "depths": wanted}
 
 
+def flow_of(flow: float, form: str) -> str:
+    """Return a flow (m3/h) in words, in l/min where it is that of a model."""
+    if abs(flow) < LEAST_FLOW:
+        return f"{flow * 1000 / 60:{form}} l/min"
+    return f"{flow:{form}} m³/h"
+
+
 def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
     """Return the largest flow, under suction where there is any."""
     pumped = (
@@ -433,9 +441,9 @@ def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
     if found.has_suction:
         words += f", against {found.shown.words(found.required[most], 'kPa', '.1f')}"
         if len(found.seepage):
-            words += f", of which seepage {found.seepage[most]:.2g} m³/h"
+            words += f", of which seepage {flow_of(found.seepage[most], '.2g')}"
     name = "Pump" if found.has_suction else "Water to vent"
-    return name, f"{found.flow[most]:.3g} m³/h", words
+    return name, flow_of(found.flow[most], ".3g"), words
 
 
 def room_card(run: Results, found: Installation) -> tuple[str, ...]:

@@ -32,6 +32,7 @@
       color: shown(curve.color),
       range: range,
       shade: curve.shade,
+      bars: curve.bars,
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -39,8 +40,8 @@
     };
   }
 
-  // A range is two thin lines, with bars between them at some depths: areas of
-  // several methods above each other cannot be told apart.
+  // A range is an area between two thin lines; that of low and high resistance has no
+  // lines. The error bar of a run is bars at some depths.
   function drawRanges(plot, context) {
     const offset = plot.getPlotOffset(), ranges = plot.getData().filter((s) => s.range);
     context.save();
@@ -55,21 +56,20 @@
         })
       );
       context.strokeStyle = context.fillStyle = one.color;
-      if (one.shade) {
-        // of the same run: an area, behind which its curve is seen
+      if (!one.bars) {
         context.globalAlpha = 0.16;
         context.beginPath();
         for (const row of ends) context.lineTo(...row[0]);
         for (const row of [...ends].reverse()) context.lineTo(...row[1]);
         context.fill();
         context.globalAlpha = 1;
+        context.lineWidth = 0.9;
+        for (const side of one.shade ? [] : [0, 1]) {
+          context.beginPath();
+          for (const row of ends) context.lineTo(...row[side]);
+          context.stroke();
+        }
         return;
-      }
-      context.lineWidth = 0.9;
-      for (const side of [0, 1]) {
-        context.beginPath();
-        for (const row of ends) context.lineTo(...row[side]);
-        context.stroke();
       }
       context.lineWidth = 1.6;
       const step = 48, first = ((number + 1) * step) / (ranges.length + 1);
@@ -212,7 +212,7 @@
         };
         const mark = document.createElement("i");
         mark.style.color = shown(curve.color);
-        if (curve.to) mark.className = "range";
+        if (curve.to) mark.className = curve.bars ? "bars" : "range";
         label.append(box, mark, curve.label);
         legend.append(label);
       }

@@ -144,17 +144,19 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
     """Return sketch and tables of caisson and soil."""
     if not run.scene:
         nothing: dict[str, Any] = {"heads": [], "rows": []}
-        empty = {"sketch": "", "caisson": [], "assumed": False}
+        empty = {"sketch": "", "caisson": [], "assumed": False, "by_depth": False}
         return empty | {"soil": nothing, "layers": nothing}
     depth = float(np.max(run.history.get("penetration_m", np.zeros(1))))
     depth = min(depth, verdict.verdict_of(run).end or depth)
     caisson, all_numbers = scene.caisson_of(run), layers.layers_table(run)
-    cells = [assumed for row in all_numbers["rows"] for _, assumed in row]
+    numbers = [cell for row in all_numbers["rows"] for cell in row]
+    cells = [assumed for _, assumed in numbers]
     return {
         "sketch": sketch.of_run(run, depth, found.rest if found else None),
         "caisson": caisson,
         "soil": layers.soil_table(run),
         "layers": all_numbers,
+        "by_depth": any(re.search(r"\bd\b", text) for text, _ in numbers),
         "assumed": any([*cells, *(item.assumed for item in caisson)]),
     }
 

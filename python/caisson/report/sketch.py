@@ -37,7 +37,7 @@ class Drawing:
         self.scale = min(room / (2 * half_width), TALL / (bottom - top))
         self.top, self.half_width, self.bottom = top, half_width, bottom
         self.parts: list[str] = []
-        self.labels: list[float] = []  # pixels, of texts in the layers
+        self.taken: dict[str, list[float]] = {"left": [], "middle": []}  # pixels
 
     def x(self, r: float) -> float:
         """Return the pixel of a distance from the axis."""
@@ -81,6 +81,15 @@ class Drawing:
         """Add a text at a pixel."""
         self.add("text", words, x=x, y=y, text_anchor=anchor)
 
+    def free(self, column: str, y: float) -> float:
+        """Return the place (pixel) nearest to y where a column has no text yet, and
+        take it."""
+        places = [y + step * LEAST_BAND for step in (0, 1, -1, 2, -2, 3, -3)]
+        taken = self.taken[column]
+        free = (p for p in places if all(abs(p - t) > LEAST_BAND - 1 for t in taken))
+        taken.append(next(free, y))
+        return taken[-1]
+
     def height(self, x: float, top: float, low: float, words: str) -> None:
         """Add a dimension line of a depth range beside the pixel x."""
         for depth in (top, low):
@@ -88,15 +97,14 @@ class Drawing:
         self.line("dimension", x, self.y(top), x, self.y(low))
         middle = (self.y(top) + self.y(low)) / 2 + 4
         side = -1 if x < WIDTH / 2 else 1
+        middle = self.free("left", middle) if side < 0 else middle
         self.text(x + 6 * side, middle, words, "end" if side < 0 else "start")
 
     def rest(self, radius: float, depth: float, words: str) -> None:
-        """Add a line between the walls with a text, not on that of a layer."""
+        """Add a line between the walls with a text, not on another one."""
         y = self.y(depth)
         self.line("rest", self.x(-radius), y, self.x(radius), y)
-        if any(abs(y - 4 - label) < LEAST_BAND for label in self.labels):
-            y += LEAST_BAND + 4
-        self.text(self.x(0), y - 4, words, "middle")
+        self.text(self.x(0), self.free("middle", y - 4), words, "middle")
 
     def svg(self, words: str) -> str:
         """Return the drawing; words say what it shows."""
@@ -121,25 +129,25 @@ def about_layer(run: Results, layer: Layer, width: float) -> str:
 
 def draw_ground(drawing: Drawing, run: Results, radius: float) -> None:
     """Draw the layers, with their depths at the right and their numbers between the
-    walls of the caisson, where no dimension is."""
+    walls of the caisson, where no dimension is, or those of a seam at the left."""
     side, written = drawing.half_width, -1e9
     for i, layer in enumerate(layers_of(run.scene)):
         low = min(layer.bottom or drawing.bottom, drawing.bottom)
         if layer.top >= drawing.bottom:
             break
         drawing.box(f"soil soil{i % 2}", -side, layer.top, side, low)
-        if drawing.y(layer.top) - written < LEAST_BAND:
-            continue
-        written = drawing.y(layer.top)
-        if i:
-            x = drawing.x(side)
-            drawing.text(x + 6, written + 4, run.shown.length(layer.top))
+        if drawing.y(layer.top) - written >= LEAST_BAND:
+            written = drawing.y(layer.top)
+            place = run.shown.length(layer.top) if i else ""
+            drawing.text(drawing.x(side) + 6, written + 4, place)
         if drawing.scale * (low - layer.top) > LEAST_BAND:
-            y = drawing.y(low) - 5
-            drawing.labels.append(y)
-            width = 2 * drawing.scale * radius - 8
-            words = about_layer(run, layer, width)
+            words = about_layer(run, layer, 2 * drawing.scale * radius - 8)
+            y = drawing.free("middle", drawing.y(low) - 5)
             drawing.text(drawing.x(0), y, words, "middle")
+        else:
+            words = about_layer(run, layer, drawing.scale * (side - radius) - 8)
+            y = drawing.free("left", (drawing.y(layer.top) + drawing.y(low)) / 2 + 4)
+            drawing.text(drawing.x(-side) + 4, y, words)
 
 
 def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None:

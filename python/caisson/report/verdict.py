@@ -163,7 +163,9 @@ def of_force(run: Results, found: Installation) -> str:
     bounds = found.force_bounds
     if installation.bar_at(found, bounds, -1, "kN") and bounds is not None:
         ends = [shown.force(float(side[-1])) for side in (bounds.low, bounds.high)]
-        text += f" (error bar {' to '.join(ends)})"
+        place = found.shown.place(bounds.end)
+        held = f" as at {place}," if found.depth[-1] > bounds.end + 1e-2 else ""
+        text += f" (error bar{held} {' to '.join(ends)})"
     largest, most = float(force.max()), int(np.argmax(force))
     later = ""
     if largest > 1.02 * float(force[-1]):
