@@ -5,7 +5,8 @@ doc/scene_results.csv has the key numbers of each scene: of the whole run, and o
 short way. Its rows say with which commit and on which processor they were made, and how
 much time of one core that took. Runs that are complete are not repeated. A number that
 differs by more than 3 % is a failure. --write takes new numbers into the file, and into
-the table of doc/results.md.
+the table of doc/results.md. What other pages quote is in QUOTES, and is compared with
+the file.
 """
 import argparse
 import csv
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson import curves, table
+from caisson import curves, evaluation, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
@@ -27,6 +28,7 @@ FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"
 BEGIN, END = "<!-- scene results -->\n", "<!-- end of scene results -->\n"
 TOLERANCE = 0.03  # of a number
+NUMBER = r"(\d[\d.,]*)"
 SMALL = 0.02  # of the largest number of its kind; below it, this is the scale
 SHORT_SHARE = 0.01  # of the way, in a short run
 WHOLE, SHORT = "whole", "short"
@@ -35,6 +37,46 @@ QUANTITIES = {
     "total_force_N": "total",
     "tip_force_N": "tip",
     "required_suction_Pa": "suction",
+}
+AT_END = ("jack", "suction")  # scenes whose numbers at the end are quoted, too
+# what pages say of a scene: page, words with # for the number, scene, quantity,
+# penetration (m), and the unit of the number
+TOTAL, TIP, NEEDED, PULL = (*QUANTITIES, "largest_tension_N")
+CLAY, LAYERS, TENSION = "tutorial_clay.md", "tutorial_suction.md", "tutorial_tension.md"
+QUOTES: list[tuple[str, str, str, str, float, float]] = [
+    ("quick_start.md", "Jacked to 6.5 m: # MN", "jack", TOTAL, 6.5, 1e6),
+    ("quick_start.md", "pen 2.015 m | tip # inner", "jack", TIP, 2, 1e3),
+    ("tutorial.md", "At 2 m, the tip force falls from # to", "tutorial", TIP, 2, 1e3),
+    ("how_to/after_installation.md", "reports # kN", "pull_out_after", PULL, 2, 1e3),
+    ("how_to/after_installation.md", "and # MN undrained", "tension", PULL, 2, 1e6),
+    (TENSION, "Pulled from 2 m: # MN", "tension", PULL, 2, 1e6),
+    (TENSION, "from 0.4 on | # MN", "tension", PULL, 2, 1e6),
+    (TENSION, "| wished in place | 107 | # |", "tension", PULL, 2, 1e3),
+    (TENSION, "| installed | 209 | # |", "tension_after", PULL, 2, 1e3),
+    (LAYERS, "ends at # kPa at 6.5 m", "suction", NEEDED, 6.5, 1e3),
+    (LAYERS, "at 1 m falls from # to", "jack", TOTAL, 1, 1e3),
+    (CLAY, "| 5 m | # kN", "suction_clay", TOTAL, 5, 1e3),
+    (CLAY, "| 8 m | # kN", "suction_clay", TOTAL, 8, 1e3),
+    (CLAY, "600 to 622 kN | # kPa", "suction_clay", NEEDED, 5, 1e3),
+    (CLAY, "1222 to 1255 kN | # kPa", "suction_clay", NEEDED, 8, 1e3),
+    (CLAY, "| 2 m | clay | # kN", "suction_layers", TOTAL, 2, 1e3),
+    (CLAY, "| 3 m | clay | # kN", "suction_layers", TOTAL, 3, 1e3),
+    (CLAY, "2248 kN | # kPa", "suction_layers", NEEDED, 3, 1e3),
+]
+# how many other numbers with a unit of force or stress pages have: what is given, by
+# hand, of a study, or of a part of a run that the file has not
+OTHERS = {
+    "tutorial.md": 3,
+    "tutorial_clay.md": 29,
+    "tutorial_suction.md": 2,
+    "tutorial_tension.md": 6,
+    "how_to/after_installation.md": 1,
+    "how_to/cpt.md": 7,
+    "how_to/ground.md": 5,
+    "how_to/own_caisson.md": 6,
+    "how_to/restart.md": 1,
+    "how_to/results.md": 2,
+    "how_to/scenes.md": 1,
 }
 # what comes before a scene: runs of other scenes, each after the one before it
 AFTER: dict[str, list[tuple[str, Entries]]] = {
@@ -175,6 +217,10 @@ def numbers_of(
     ):
         find = key_numbers if way == WHOLE else short_numbers
         found = find(results_of_run.history)
+        if scene in AT_END and way == WHOLE:
+            end = {k: x[-1] for k, x in evaluation.at_depths(results_of_run).items()}
+            at = float(end[evaluation.DEPTH])
+            found |= {(k, at): float(end[k]) for k in QUANTITIES if k in end}
     else:
         found = {
             (check["check"], 0.0): float(check["computed"])
@@ -277,6 +323,55 @@ def page_is_true(numbers: list[Number], path: Path = PAGE) -> bool:
     return BEGIN + "\n" + page(numbers) + "\n" + END in path.read_text(encoding="utf-8")
 
 
+def pages() -> list[Path]:
+    """Return the pages on which a user finds numbers of scenes."""
+    doc = ROOT / "doc"
+    tutorials = sorted(doc.glob("tutorial*.md"))
+    return [doc / "quick_start.md", *tutorials, *sorted((doc / "how_to").glob("*.md"))]
+
+
+def pattern_of(words: str) -> str:
+    """Return the regular expression of words of QUOTES."""
+    found = r"\s+".join(map(re.escape, words.split()))
+    return found.replace(r"\#", NUMBER)
+
+
+def stale_quotes(numbers: list[Number]) -> list[str]:
+    """Return the quotes that are not on their page, or differ by more than the
+    tolerance from the numbers, in words."""
+    known, found = {n.key: n.value for n in numbers if n.way == WHOLE}, list[str]()
+    for page_name, words, scene, quantity, depth, unit in QUOTES:
+        text = (ROOT / "doc" / page_name).read_text(encoding="utf-8")
+        said = re.findall(pattern_of(words), text)
+        value = known[scene, WHOLE, quantity, depth] / unit
+        where = f"{page_name}, {words!r}"
+        if len(said) != 1:
+            found.append(f"{where}: {len(said)} times on the page, instead of once")
+        elif not abs(float(said[0]) - value) <= TOLERANCE * abs(value):
+            found.append(f"{where}: {said[0]} on the page, and {value:.4g} in the file")
+    return found
+
+
+def others_of(path: Path) -> int:
+    """Return how many numbers with a unit of force or stress, or of steps, a page has
+    outside of code and of QUOTES."""
+    text = re.sub(
+        r"```.*?```|`[^`]*`", " ", path.read_text(encoding="utf-8"), flags=re.S
+    )
+    name = str(path.relative_to(ROOT / "doc"))
+    quoted = [
+        match.span()
+        for quote in QUOTES
+        if quote[0] == name
+        for match in re.finditer(pattern_of(quote[1]), text)
+    ]
+    numbers = re.finditer(rf"{NUMBER}\s+(?:kN|MN|kPa|MPa|steps)\b(?![/·])", text)
+    return sum(
+        not any(begin <= match.start() < end for begin, end in quoted)
+        for match in numbers
+    )
+
+
 def write_page(numbers: list[Number], path: Path = PAGE) -> None:
     """Put the table into the manual."""
     text = path.read_text(encoding="utf-8")
@@ -322,5 +417,6 @@ def main(options: argparse.Namespace) -> int:
         if options.write:
             write(merged(old, new))
             write_page(read())
+    complaints += stale_quotes(read())
     print("\n".join(complaints) or "scenes: all numbers are as the manual has them")
     return 1 if complaints else 0

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from caisson.paths import ROOT
 from lab.studies import scene_results
 from lab.studies.scene_results import WHOLE, Number
 
@@ -38,6 +39,29 @@ class Files(unittest.TestCase):
             for depth, value in zip(range(2, 7), row.split("|")):
                 expected = known[scene, "required_suction_Pa", float(depth)]
                 self.assertAlmostEqual(float(value), expected, delta=0.6)
+
+    def test_quotes(self) -> None:
+        """What pages quote of scenes is what the file has; another number with a unit
+        is quoted in QUOTES, or counted as one that is not of the file."""
+        numbers = scene_results.read()
+        self.assertEqual(scene_results.stale_quotes(numbers), [])
+        others = {
+            str(page.relative_to(ROOT / "doc")): scene_results.others_of(page)
+            for page in scene_results.pages()
+        }
+        found = {name: n for name, n in others.items() if n}
+        self.assertEqual(found, scene_results.OTHERS)
+
+    def test_stale_quote(self) -> None:
+        """A number that is 4 % larger in the file than on a page is named."""
+        page, words, scene, quantity, depth, _ = scene_results.QUOTES[0]
+        key = scene, WHOLE, quantity, depth
+        new = [
+            replace(n, value=1.04 * n.value) if n.key == key else n
+            for n in scene_results.read()
+        ]
+        (said,) = scene_results.stale_quotes(new)
+        self.assertTrue(said.startswith(f"{page}, {words!r}: "), said)
 
     def test_scenes(self) -> None:
         """Every number is of a listed scene, with its commit."""
