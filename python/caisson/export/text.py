@@ -18,7 +18,7 @@ NOT_BALANCED = (
     " other program must find its equilibrium."
 )
 POINTS = (
-    "No balance is known of single points: near the wall they may be far from what bears"
+    "No balance is known of single points: near a wall they may be far from what bears"
     " it; --mesh or a grid shows how far."
 )
 # shares above which the stress does not stand for the forces of the run
