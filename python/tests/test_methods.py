@@ -185,7 +185,7 @@ class Files(unittest.TestCase):
         for heads, words in (
             ("z,q", "no row names .* as depth_m,qc_MPa,.* row 1 is 'z, q'"),
             ("depth_m,qc", "'qc', the cone resistance, has no unit"),
-            ("depth_ft,qc_MPa", "'depth_ft', the depth, has no unit .* 'ft'"),
+            ("depth_yd,qc_MPa", "'depth_yd', the depth, has no unit .* 'yd'"),
         ):
             with self.assertRaisesRegex(InputError, words):
                 self.read(f"{heads}\n0,1\n1,2")

@@ -259,7 +259,9 @@ class Readings:
         soft = np.zeros(len(tip), dtype=bool)
         for i in np.flatnonzero(empty & (first < len(tip))):
             place = depth[max(i, first)] + (2 * NEAR if i < first else 0)
-            soft[i] = np.median(tip[np.abs(depth - place) <= NEAR]) < SOFT
+            near = np.abs(depth - place) <= NEAR
+            near[max(i - 2, 0) : i + 3] = True  # where rows are far from each other
+            soft[i] = np.median(tip[near]) < SOFT
         if 0 < soft.sum() <= len(tip) / 2:
             some = depth[soft]
             self.remarks.append(
