@@ -32,7 +32,7 @@
       color: shown(curve.color),
       range: range,
       shade: curve.shade,
-      bars: curve.bars,
+      whiskers: curve.bars, // Flot has an option "bars"
       data: closed,
       hoverable: false,
       lines: { show: true, lineWidth: 0 },
@@ -56,7 +56,7 @@
         })
       );
       context.strokeStyle = context.fillStyle = one.color;
-      if (!one.bars) {
+      if (!one.whiskers) {
         context.globalAlpha = 0.16;
         context.beginPath();
         for (const row of ends) context.lineTo(...row[0]);
