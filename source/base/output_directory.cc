@@ -8,9 +8,11 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -32,10 +34,12 @@ namespace CaissonMPM
       R"(run\.json\.of_rank_\d+(\.tmp)?|)"
       R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
 
-    /** The names of what the Python package makes of them. */
+    /** The names of what the Python package makes of them without being told
+     * where to. This is the only list of them. */
     const std::regex derived_names(
       R"((forces|stress|displacement|void_ratio|pore_pressure|walls)\.png|)"
-      R"((suction|blocks)\.png|design\.csv|report\.(html|pdf)|run_key\.json)");
+      R"(suction\.png|(design|jacked|wall_pressure)\.csv|)"
+      R"(report\.(html|pdf)|run_key\.json)");
 
     std::vector<fs::path>
     files_named(const std::regex &names, const fs::path &directory)
@@ -89,6 +93,30 @@ namespace CaissonMPM
             number = std::max(number, std::stoul(found[1]));
         }
       return directory / ("earlier_" + to_text(number + 1));
+    }
+
+    /** Whether somebody has changed a file since the Python package wrote it:
+     * its record has a line with checksum, size and name of each of them. */
+    bool
+    is_changed(const fs::path &file)
+    {
+      std::ifstream record(file.parent_path() / ".caisson");
+      std::string   line, written;
+      const auto    name = " " + file.filename().string();
+      while (std::getline(record, line))
+        if (line.size() > name.size() &&
+            line.compare(line.size() - name.size(), name.size(), name) == 0)
+          written = line;
+      if (written.empty())
+        return false;
+      const std::string content = read_text(file.string());
+      const auto        sum     = crc32(0,
+                             reinterpret_cast<const Bytef *>(content.data()),
+                             content.size());
+      char              expected[64];
+      std::snprintf(
+        expected, sizeof(expected), "%08lx %zu", sum, content.size());
+      return written != expected + name;
     }
 
     /** Move the files into a new directory, all or none. */
@@ -262,9 +290,16 @@ namespace CaissonMPM
   unsigned int
   OutputDirectory::clear() const
   {
+    auto                  files = files_named(result_names, path_);
+    std::vector<fs::path> changed;
+    for (const fs::path &file : files_named(derived_names, path_))
+      (is_changed(file) ? changed : files).push_back(file);
+    std::error_code error;
+    if (!changed.empty())
+      error = move_to(place_for_earlier_run(path_), changed);
     unsigned int n_removed = 0;
-    for (const fs::path &file : files_named(result_names, path_))
-      n_removed += remove(file.string()) ? 1 : 0;
+    for (const fs::path &file : files)
+      n_removed += fs::remove(file, error) ? 1 : 0;
     return n_removed;
   }
 
@@ -276,7 +311,8 @@ namespace CaissonMPM
       {
         auto files = files_named(result_names, path_);
         if (has_only_begun(path_))
-          clear();
+          for (const fs::path &file : files)
+            remove(file.string());
         else if (!files.empty())
           {
             for (const fs::path &file : files_named(derived_names, path_))

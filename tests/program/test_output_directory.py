@@ -18,6 +18,8 @@ from program import (
     summary,
 )
 
+from caisson import plot, report
+
 # many minutes, with a row soon
 SLOW = {"Output/Record interval": 1e-4, "Time/Courant number": 1e-3}
 
@@ -61,6 +63,7 @@ class Directory(ProgramTest):
                 if number is None:
                     self.assertIn("files of an earlier run", text)
                     self.assertFalse((path / "earlier_3").exists())
+                    self.assertFalse((path / "forces.png").exists())
                     continue
                 aside = path / f"earlier_{number}"
                 self.assertIn(str(aside), text)
@@ -68,6 +71,26 @@ class Directory(ProgramTest):
                 self.assertIn("forces.png", names)
                 self.assertIn("points_0009.vtu", names)
                 self.assertEqual((aside / "history.csv").read_text(), history)
+
+    def test_overwrite(self) -> None:
+        """No picture or table of the run before stays beside a new one; those of a user
+        do, and what a user has changed is put aside."""
+        path = self.directory()
+        entries = {"Time/End penetration": 0.501}
+        self.run_scene("jack", path, entries=entries)
+        plot.draw(path)
+        report.write(path)
+        made = {file.name for file in path.iterdir()}
+        (path / "report.html").write_text("mine")
+        for name in ("wall_pressure.csv", "jacked.csv", "mine.png", "vessel.csv"):
+            (path / name).write_text("old")
+        self.run_scene("jack", path, SUCCESS, "--overwrite", entries=entries)
+        stay = {file.name for file in path.iterdir() if file.is_file()}
+        self.assertLessEqual({"mine.png", "vessel.csv"}, stay)
+        self.assertEqual((path / "earlier_1/report.html").read_text(), "mine")
+        plotted = {x for x in made if x.endswith((".png", ".html"))} | {"design.csv"}
+        self.assertGreater(len(plotted), 3)
+        self.assertEqual(stay & (plotted | {"wall_pressure.csv", "jacked.csv"}), set())
 
     def test_what_is_kept(self) -> None:
         """Frames without a table, and a run stopped before its second row; what

@@ -47,8 +47,10 @@ namespace CaissonMPM
     static bool
     remove(const std::string &path);
 
-    /** Remove the files of an earlier run. Returns their number. For the first
-     * rank. */
+    /** Remove the files of an earlier run, and the pictures and reports of
+     * them; those that were changed since they were written go to a new
+     * subdirectory earlier_N. Returns the number of those removed. For the
+     * first rank. */
     unsigned int
     clear() const;
 
