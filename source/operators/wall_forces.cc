@@ -41,7 +41,7 @@ namespace CaissonMPM
         volume += p.volume;
         sums[total[p.material]] += p.volume * p.pore_pressure;
       });
-      return {sums[0] / volume, sums[1] / volume};
+      return {{sums[0] / volume, sums[1] / volume}};
     }
   } // namespace
 
