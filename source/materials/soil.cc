@@ -185,6 +185,27 @@ namespace CaissonMPM
     }
   } // namespace
 
+  namespace
+  {
+    /** The K0 from 1 on toward @p end that is held, a little within what is.
+     */
+    template <typename Held>
+    double
+    last_held(const Held &is_held, const double end)
+    {
+      constexpr double margin = 5e-4; // for the digits of a message
+      double           held = 1., other = end;
+      if (is_held(end))
+        return end;
+      for (int i = 0; i < 50; ++i)
+        {
+          const double middle              = .5 * (held + other);
+          (is_held(middle) ? held : other) = middle;
+        }
+      return held + margin * (1. - held);
+    }
+  } // namespace
+
   bool
   Soil::has_friction() const
   {
@@ -199,8 +220,11 @@ namespace CaissonMPM
   double
   Soil::stress_borne_above(const double z, const double height) const
   {
+    // that of its weight: a surcharge, which lies on the soil, does not
+    // make it heavier
     if (has_friction())
-      return -initial_stress(Point<2>(0., z))[zz];
+      return -initial_stress(Point<2>(0., z))[zz] -
+             (stress_state == InitialStress::k0 && z < 0. ? surcharge : 0.);
     // without friction it bears what its strength does, and not its weight
     double least = std::numeric_limits<double>::infinity();
     for (unsigned int i = material_at(z + height); i <= material_at(z); ++i)
@@ -230,8 +254,9 @@ namespace CaissonMPM
                double                    &stress)
   {
     // what a number may change within a material, relatively
-    constexpr double largest_change = .04;
-    double           top            = layer.top_depth();
+    constexpr double    largest_change = .04;
+    double              top            = layer.top_depth();
+    std::vector<double> depths;
     for (unsigned int i = 0; i < lines.size(); ++i)
       {
         const auto may_reach = [&](const double bottom) {
@@ -248,22 +273,12 @@ namespace CaissonMPM
         };
         while (i + 1 < lines.size() && may_reach(lines[i + 1]))
           ++i;
-        try
-          {
-            add_material(layer, top, lines[i], stress);
-          }
-        catch (const BadInput &error)
-          {
-            const std::string what = error.what();
-            if (stress_state == InitialStress::k0 ||
-                what.find("/K0 ") == std::string::npos)
-              throw;
-            throw BadInput(what + " This K0 is the ratio of the horizontal to "
-                                  "the vertical stress that Soil/Initial "
-                                  "stress gives.");
-          }
+        add_material(layer, top, lines[i], stress);
+        for (const double depth : {.5 * (top + lines[i]), lines[i]})
+          depths.push_back(depth);
         top = lines[i];
       }
+    check_at_rest(layer, depths);
   }
 
   double
@@ -302,9 +317,9 @@ namespace CaissonMPM
     at_bottom.check(vertical_stress(bottom, below) *
                     (1. + 2. * at_bottom.earth_pressure_at_rest) / 3.);
     if (m.umat)
-      m.umat_stiffness = m.umat->test(
-        stress_of_element_test(m, bottom, vertical_stress(bottom, below)),
-        bottom);
+      m.umat_stiffness =
+        m.umat->test(stress_at_rest(m, bottom, vertical_stress(bottom, below)),
+                     bottom);
     m.top_depth = top;
     if (top == 0.)
       m.added_weight = surcharge / (bottom - top);
@@ -312,13 +327,51 @@ namespace CaissonMPM
     materials.push_back(m);
   }
 
+  void
+  Soil::check_at_rest(const SoilLayer           &layer,
+                      const std::vector<double> &depths) const
+  {
+    double      narrowest = std::numeric_limits<double>::infinity();
+    std::string refusal;
+    for (const double depth : depths)
+      {
+        const double vertical = -initial_stress(Point<2>(0., -depth))[zz];
+        if (vertical <= 0.)
+          continue;
+        const SoilMaterial m =
+          layer.material_at(depth, vertical, given_stress_ratio(depth));
+        if (m.bears(stress_at_rest(m, depth, vertical)))
+          continue;
+        const auto holds = [&](const double k0) {
+          return m.bears({{-k0 * vertical, -vertical, -k0 * vertical, 0.}});
+        };
+        const double least = last_held(holds, 0.), most = last_held(holds, 10.);
+        if (most - least >= narrowest)
+          continue;
+        narrowest = most - least;
+        refusal =
+          m.section() + "/K0 = " + to_text(m.earth_pressure_at_rest, 4) +
+          " at a depth of " + to_text(depth, 4) + " m: the strength of " +
+          m.law_name() + " there, below " + to_text(vertical, 4) +
+          " Pa, holds K0 from " + to_text(least, 4) + " to " +
+          to_text(most, 4) + ", and the ground would move by itself. ";
+      }
+    if (refusal.empty())
+      return;
+    throw BadInput(
+      refusal +
+      (stress_state == InitialStress::k0 ?
+         "Set K0 within this range, or correct the strength." :
+         "Correct Soil/Initial stress, which gives this K0, or the strength."));
+  }
+
   Stress
-  Soil::stress_of_element_test(const SoilMaterial &m,
-                               const double        bottom,
-                               const double        vertical_stress) const
+  Soil::stress_at_rest(const SoilMaterial &m,
+                       const double        depth,
+                       const double        vertical_stress) const
   {
     if (stress_state != InitialStress::k0)
-      return initial_stress(Point<2>(0., -bottom));
+      return initial_stress(Point<2>(0., -depth));
     const double horizontal = m.earth_pressure_at_rest * vertical_stress;
     return {{-horizontal, -vertical_stress, -horizontal, 0.}};
   }

@@ -24,6 +24,43 @@ namespace CaissonMPM
     {
       return {stress[0], stress[1], stress[2], stress[3]};
     }
+
+    /** Whether the strength of a law holds a stress. */
+    template <typename Law, typename Parameters>
+    bool
+    is_borne(const Law         l,
+             const Stress     &stress,
+             const double      void_ratio,
+             const Parameters &p)
+    {
+      using Number = Kernels::Lanes<1>;
+      if constexpr (Law::knows_what_it_bears)
+        return l.bears(one_lane(stress), Number(void_ratio), p);
+      else if constexpr (!Law::is_external)
+        {
+          constexpr double             round_off = 1e-8;
+          const Number                 none(0.);
+          Kernels::StressState<Number> kept = one_lane(stress);
+          Kernels::LawState<Number> state{none, none, Number(void_ratio), {}};
+          l.update(kept,
+                   Kernels::StrainIncrement<Number>{none, none, none, none},
+                   state,
+                   p);
+          const double change[4] = {kept.rr[0] - stress[rr],
+                                    kept.zz[0] - stress[zz],
+                                    kept.tt[0] - stress[tt],
+                                    kept.rz[0] - stress[rz]};
+          double       moved = 0., size = 0.;
+          for (unsigned int c = 0; c < 4; ++c)
+            {
+              moved = std::max(moved, std::abs(change[c]));
+              size  = std::max(size, std::abs(stress[c]));
+            }
+          return moved <= round_off * size;
+        }
+      else
+        return true;
+    }
   } // namespace
 
   std::string
@@ -54,6 +91,18 @@ namespace CaissonMPM
         section() + "/Internal length = " + to_text(internal_length) +
         " m: the law " + law_name() + " has none. Set the length to 0, or " +
         section() + "/Law to Mohr-Coulomb or Mohr-Coulomb with softening.");
+  }
+
+  bool
+  SoilMaterial::bears(const Stress &stress) const
+  {
+    Kernels::Material material;
+    set_law(material);
+    bool result = true;
+    Kernels::with_law(material, [&](const auto l, const auto &p) {
+      result = is_borne(l, stress, void_ratio(), p);
+    });
+    return result;
   }
 
   std::optional<double>

@@ -47,9 +47,9 @@ namespace CaissonMPM
       "",
       "The inertia of the smallest cells, mass scaling times density times the "
       "square of the velocity of the body, is this share of the initial "
-      "vertical effective stress at the tip or, if no soil has friction, of "
-      "half the least strength from there to four wall thicknesses above, 0.4 "
-      "to 1.6 as a rule. The scaling follows the penetration. Larger cells get "
+      "vertical effective stress at the tip, without the surcharge, or, if no "
+      "soil has friction, of half the least strength from there to four wall "
+      "thicknesses above, 0.4 to 1.6 as a rule. The scaling follows the penetration. Larger cells get "
       "less of it, and cells that the tip bends get more. The scaled inertia "
       "resists the deformation of cells, and hardly their translation. Mass "
       "scaling must then be 1.",

@@ -284,20 +284,20 @@ test_robust()
   report("as single points", worst, 1e-12);
 }
 
-/** K0 of 0.15 and 4 lies beyond the critical state of 24 degrees. */
+/** The critical state of 24 degrees holds K0 from tan^2(45 - 12 degrees),
+ * 0.422, to its inverse, 2.371. */
 void
 test_check()
 {
   const double values[] = {lambda, kappa, nu, phi_c, 1., 1e2};
-  for (const double k0 : {.15, .5, 1., 2., 4.})
-    {
-      LawMessage message;
-      std::printf("K0 = %.2f: %s\n",
-                  k0,
-                  Law::check(read_parameters<Law>(values), {k0, e_0}, message) ?
-                    "taken" :
-                    message.text);
-    }
+  for (const double k0 : {.42, .424, 1., 2.36, 2.38})
+    std::printf("K0 = %.3f: %s\n",
+                k0,
+                Law::bears<Lanes<1>>({-k0, -1., -k0, 0.},
+                                     e_0,
+                                     read_parameters<Law>(values)) ?
+                  "borne" :
+                  "too much");
 }
 
 int

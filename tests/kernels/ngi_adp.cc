@@ -432,9 +432,21 @@ test_check()
                   "taken" :
                   message.text);
   };
+  // (1 - K0) / (1 + 2 K0) times 90 kPa, and A is 20 kPa, P 9 kPa
+  const double values[] = {A, .7, .45, of_A, of_D, of_P, 400., .49, 0.};
   ask("K0 = 0.6", {A, .7, .45, of_A, of_D, of_P, 400., .49, 0.}, .6);
-  ask("K0 = 0.3", {A, .7, .45, of_A, of_D, of_P, 400., .49, 0.}, .3);
-  ask("K0 = 1.5", {A, .7, .45, of_A, of_D, of_P, 400., .49, 0.}, 1.5);
+  for (const double k0 : {.54, .53, 1.37, 1.38})
+    {
+      const double vertical = 3. * 6e4 / (1. + 2. * k0);
+      std::printf(
+        "K0 = %.2f: %s\n",
+        k0,
+        Law::bears<Lanes<1>>({-k0 * vertical, -vertical, -k0 * vertical, 0.},
+                             1.,
+                             read_parameters<Law>(values)) ?
+          "borne" :
+          "too much");
+    }
   ask("strain", {A, .7, .45, of_A, .001, of_P, 400., .49, 0.}, 1.);
 }
 

@@ -400,8 +400,22 @@ test_check()
   ask("too dense", chi, .5, .4);
   ask("too loose", chi, .5, 1.1);
   ask("no void ratio", chi, .5, 0.);
-  ask("K0 = 0.2 in dense sand", chi, .2, .65);
-  ask("K0 = 0.2 in loose sand", chi, .2, .78);
+  const double values[] = {
+    E_ref, nu, phi_c, Gamma, lambda, N, chi, H, 1., 1e5, .5, 1e3};
+  for (const double k0 : {.2, .25})
+    for (const double e : {.65, .78})
+      {
+        const double vertical = 3. * p_0 / (1. + 2. * k0);
+        std::printf(
+          "K0 = %.2f at e = %.2f: %s\n",
+          k0,
+          e,
+          Law::bears<Lanes<1>>({-k0 * vertical, -vertical, -k0 * vertical, 0.},
+                               e,
+                               read_parameters<Law>(values)) ?
+            "borne" :
+            "too much");
+      }
   // y = -chi psi / M in triaxial compression
   const double limit = .45 * M / chi,
                e_c   = Gamma - lambda * std::log(p_0 / 1e3);

@@ -230,7 +230,24 @@ check_refusals()
         "set Cohesion = 1e3*(2 + r)",
         "set Relative density = 0.5\nset Maximum void ratio = 0.9",
         "set Overconsolidation ratio = 1 + 100e3/s",
-        "set K0 = 0.4 + 1e-6*p"})
+        "set K0 = 0.4 + 1e-6*p",
+        // at 10 m, below 88.29 kPa: 1 -+ 2 c / 88.29 kPa
+        "set Friction angle = 0\nset Cohesion = 5e3\nset K0 = 0.5",
+        // 1/3 - 2 c / sqrt(3) / 88.29 kPa, and 3 + 2 c sqrt(3) / 88.29 kPa
+        "set Cohesion = 100\nset K0 = 0.1",
+        "set Cohesion = 100\nset K0 = 3.1",
+        "set Law = Mohr-Coulomb with softening\nset K0 = 0.2",
+        "set Law = Mohr-Coulomb with stiffness by stress\nset K0 = 0.2",
+        "set Law = Mohr-Coulomb by density and stress\n"
+        "set Relative density = 0.6\nset Minimum void ratio = 0.5\n"
+        "set Maximum void ratio = 0.9\nset K0 = 0.1",
+        "set Law = NGI-ADP\nset Active strength = 2e4\nset K0 = 0.3",
+        "set Law = modified Cam clay\nset Void ratio = 1\nset K0 = 0.2",
+        "set Law = NorSand\nset Void ratio = 0.7\nset K0 = 0.1",
+        "set Law = hypoplastic sand\nset Void ratio = 0.6\nset K0 = 0.1",
+        // below 2 c / (1 - K0) it stands, where strength grows with depth
+        "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.45",
+        "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.51"})
     try
       {
         const Ground g("subsection Layer 1\n" + layer + "\nend\n");

@@ -40,17 +40,6 @@ namespace CaissonMPM
                        a    = (3. - sine) / (3. + sine);
           return {6. * sine / (3. - sine), a * a * a * a, sine};
         }
-
-        /** q / p of the stress at rest with this K0, over M in triaxial
-         * compression or extension. */
-        double
-        share_at_rest(const double earth_pressure_at_rest) const
-        {
-          const double k = earth_pressure_at_rest,
-                       q = 3. * (1. - k) / (1. + 2. * k);
-          return q > 0. ? q * (3. - sine) / (6. * sine) :
-                          -q * (3. + sine) / (6. * sine);
-        }
       };
 
       /** p, q and M^-2 of a stress. */
@@ -77,6 +66,13 @@ namespace CaissonMPM
           inverse_M2 =
             Number(1. / (slope.M * slope.M)) *
             sqrt(Number(.5 / a4) * (Number(1. + a4) + Number(1. - a4) * sine));
+        }
+
+        /** q / p over the slope M of the critical state at this Lode angle. */
+        [[gnu::always_inline]] inline Number
+        share() const
+        {
+          return q * sqrt(inverse_M2) / p;
         }
 
         /** The stress @p sigma, which has these invariants, with its deviator

@@ -59,7 +59,8 @@ namespace CaissonMPM
       struct Hypoplasticity : MaterialLaw
       {
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
-                              is_packed = true, has_loosest_state = true;
+                              is_packed = true, has_loosest_state = true,
+                              knows_what_it_bears = true;
 
         struct Parameters
         {
@@ -167,6 +168,34 @@ namespace CaissonMPM
 
         static bool
         check(const Parameters &, const LawContext &, LawMessage &);
+
+        /** Up to the limit stress of its density, where the stress no longer
+         * changes: f_d |L^-1 : N| = 1. */
+        template <typename Number>
+        static bool
+        bears(const StressState<Number> &sigma,
+              const Number               void_ratio,
+              const Parameters          &p)
+        {
+          StressState<Number>        T{sigma.rr - p.shift,
+                                sigma.zz - p.shift,
+                                sigma.tt - p.shift,
+                                sigma.rz};
+          const Factors<Number>      f = factors(T, void_ratio, p);
+          const StressState<Number> &s = f.s;
+          // L^-1 : N = a / F (s + dev s - share s)
+          const double third = 1. / 3., F = f.F[0], ss = product(s, s)[0],
+                       share = p.a * p.a * (2. * ss - third) /
+                               (F * F + p.a * p.a * ss);
+          const auto on_s = [&](const Number component, const double shift) {
+            return (2. - share) * component - Number(shift);
+          };
+          const StressState<Number> b{on_s(s.rr, third),
+                                      on_s(s.zz, third),
+                                      on_s(s.tt, third),
+                                      on_s(s.rz, 0.)};
+          return f.f_d[0] * p.a * __builtin_sqrt(product(b, b)[0]) < F;
+        }
 
         /** e_i at the pressure -tr T / 3. */
         template <typename Number>

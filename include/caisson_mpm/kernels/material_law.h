@@ -205,7 +205,9 @@ namespace CaissonMPM
         constexpr Entry tension_cutoff = {
           "Tension cut-off",
           "Pa",
-          "No principal stress exceeds this tension.",
+          "No principal stress exceeds this tension. With 0 the soil bears "
+          "none, and clay stays at a wall; clay that bears tension may come "
+          "off it.",
           0.,
           0.,
           no_limit};
@@ -289,6 +291,11 @@ namespace CaissonMPM
         /** Has Number yield_stress(stress, void_ratio, variable, parameters),
          * in Pa, of the first variable of the point: what frames call so. */
         static constexpr bool has_yield_stress = false;
+
+        /** Has bool bears(stress, void_ratio, parameters), with the types of
+         * p_wave_modulus(): whether its strength holds a stress at rest. A law
+         * without it bears what an update without strain leaves as it is. */
+        static constexpr bool knows_what_it_bears = false;
 
         /** Whether the parameters fit together and to the soil. */
         template <typename Parameters>

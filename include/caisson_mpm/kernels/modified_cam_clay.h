@@ -39,7 +39,8 @@ namespace CaissonMPM
         static constexpr const char *name     = "modified Cam clay";
         static constexpr int         n_state  = 1;
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
-                              has_yield_stress = true;
+                              has_yield_stress    = true,
+                              knows_what_it_bears = true;
 
         struct Parameters
         {
@@ -93,10 +94,18 @@ namespace CaissonMPM
           if (context.void_ratio <= 0.)
             return message.refuse(
               "the void ratio at the start is 0. Set Void ratio.");
-          if (p.slope.share_at_rest(context.earth_pressure_at_rest) >= 1.)
-            return message.refuse("K0 is beyond the critical state of Critical "
-                                  "friction angle. Correct one of them.");
           return true;
+        }
+
+        /** Up to the critical state. */
+        template <typename Number>
+        static bool
+        bears(const StressState<Number> &sigma,
+              const Number /*void_ratio*/,
+              const Parameters &p)
+        {
+          return CriticalStateInvariants<Number>(sigma, p.slope).share()[0] <
+                 1.;
         }
 
         /** The bulk modulus at the mean stress @p pressure (Pa). */

@@ -269,33 +269,18 @@ namespace CaissonMPM
         }
       };
 
-      /** What check() of a law with these three entries looks at. */
+      /** What check() of a law with these two angles (degrees) looks at. */
       inline bool
-      check_strength(const double      friction,
-                     const double      dilatancy,
-                     const double      cohesion,
-                     const LawContext &context,
-                     LawMessage       &message)
+      check_dilatancy(const double friction,
+                      const double dilatancy,
+                      LawMessage  &message)
       {
-        if (dilatancy > friction)
-          return message.refuse(
-            "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
-            "plastic flow would create energy. Lower the dilatancy angle.",
-            dilatancy,
-            friction);
-        const double s       = __builtin_sin(friction * radians_per_degree);
-        const double passive = (1. + s) / (1. - s); // largest stress ratio
-        const double k       = context.earth_pressure_at_rest;
-        if (cohesion == 0. &&
-            (k > passive * (1. + 1e-9) || k < (1. - 1e-9) / passive))
-          return message.refuse(
-            "K0 = %g lies outside what Friction angle = %g degrees without "
-            "cohesion can carry (%g to %g). Change one of them.",
-            k,
-            friction,
-            1. / passive,
-            passive);
-        return true;
+        return dilatancy <= friction ||
+               message.refuse(
+                 "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
+                 "plastic flow would create energy. Lower the dilatancy angle.",
+                 dilatancy,
+                 friction);
       }
 
       inline bool
@@ -316,11 +301,7 @@ namespace CaissonMPM
                                    context.mean_stress / p.bulk,
                                    context,
                                    message) &&
-               check_strength(p.friction_angle,
-                              p.dilatancy_angle,
-                              p.cohesion,
-                              context,
-                              message);
+               check_dilatancy(p.friction_angle, p.dilatancy_angle, message);
       }
 
       inline bool

@@ -182,8 +182,7 @@ namespace CaissonMPM
               p.degrees_per_index,
               phi,
               psi);
-          return check_density(p, context, message) &&
-                 check_at_rest(p, context, message);
+          return check_density(p, context, message);
         }
 
         static const char *
@@ -283,33 +282,6 @@ namespace CaissonMPM
               p.smallest_stress,
               largest_critical_density);
           return true;
-        }
-
-        /** Whether the sand carries K0 at its density and mean stress. */
-        static bool
-        check_at_rest(const Parameters &p,
-                      const LawContext &context,
-                      LawMessage       &message)
-        {
-          const double mean = context.mean_stress,
-                       s    = strength(
-                             StressState<Lanes<1>>{-mean, -mean, -mean, 0.},
-                             Lanes<1>(context.void_ratio),
-                             p)
-                             .sin_phi[0];
-          const double passive = (1. + s) / (1. - s),
-                       k       = context.earth_pressure_at_rest;
-          if (k <= passive && k >= 1. / passive)
-            return true;
-          return message.refuse(
-            "K0 = %g lies outside what sand of the void ratio %g carries with "
-            "Critical friction angle = %g degrees (%.3g to %.3g). Change one "
-            "of them.",
-            k,
-            context.void_ratio,
-            p.friction_angle,
-            1. / passive,
-            passive);
         }
 
         /** F. */

@@ -103,8 +103,8 @@ namespace CaissonMPM
 
         static bool
         check(const Parameters &p,
-              const LawContext &context,
-              LawMessage       &message)
+              const LawContext & /*context*/,
+              LawMessage &message)
         {
           const struct
           {
@@ -135,8 +135,7 @@ namespace CaissonMPM
               "the dilatancy angle.",
               p.residual_dilatancy,
               p.residual_friction);
-          return check_strength(
-            p.friction_angle, p.dilatancy_angle, p.cohesion, context, message);
+          return check_dilatancy(p.friction_angle, p.dilatancy_angle, message);
         }
 
         static VolumeInShear

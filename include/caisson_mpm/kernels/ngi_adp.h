@@ -54,8 +54,9 @@ namespace CaissonMPM
       /** The law "NGI-ADP". See the head of the file. */
       struct NgiAdp : ElasticLaw
       {
-        static constexpr const char *name    = "NGI-ADP";
-        static constexpr int         n_state = 2;
+        static constexpr const char *name                = "NGI-ADP";
+        static constexpr int         n_state             = 2;
+        static constexpr bool        knows_what_it_bears = true;
 
         struct Parameters : Elasticity
         {
@@ -158,17 +159,21 @@ namespace CaissonMPM
           const double k = context.earth_pressure_at_rest,
                        tau_0 =
                          1.5 * context.mean_stress * (1. - k) / (1. + 2. * k),
-                       A = p.active, P = A * p.passive_ratio;
-          if (tau_0 >= A || tau_0 <= -P)
-            return message.refuse(
-              "K0 = %g gives a shear stress of %g Pa at the start, beyond the "
-              "active strength %g Pa or the passive one, %g Pa. Set K0 closer "
-              "to 1, or raise Active strength.",
-              k,
-              tau_0,
-              A,
-              P);
-          return check_strains(p, tau_0, message);
+                       off_center = tau_0 - p.center;
+          // a stress beyond the strength is refused by bears()
+          return (off_center < 0. ? -off_center : off_center) >= p.radius ||
+                 check_strains(p, tau_0, message);
+        }
+
+        /** Below the active and the passive strength. */
+        template <typename Number>
+        static bool
+        bears(const StressState<Number> &sigma,
+              const Number /*void_ratio*/,
+              const Parameters &p)
+        {
+          return Centered<Number>(Shear<Number>(sigma, p), Number(p.center))
+                   .tresca()[0] < p.radius;
         }
 
         static VolumeInShear

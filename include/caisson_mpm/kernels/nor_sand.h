@@ -62,7 +62,8 @@ namespace CaissonMPM
         static constexpr const char *name     = "NorSand";
         static constexpr int         n_state  = 1;
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
-                              has_yield_stress = true;
+                              has_yield_stress    = true,
+                              knows_what_it_bears = true;
 
         /** The elasticity is that at the reference stress. */
         struct Parameters : Elasticity, StiffnessByStress
@@ -160,6 +161,18 @@ namespace CaissonMPM
           if (context.void_ratio <= 0.)
             return message.refuse("Void ratio is 0 at the start. Set it.");
           return context.mean_stress <= 0. || check_state(p, context, message);
+        }
+
+        /** Up to the peak strength of its state. */
+        template <typename Number>
+        static bool
+        bears(const StressState<Number> &sigma,
+              const Number               void_ratio,
+              const Parameters          &p)
+        {
+          const CriticalStateInvariants<Number> at_rest(sigma, p.slope);
+          const double y = dilatant_state(at_rest.p[0], void_ratio[0], p);
+          return at_rest.share()[0] < 1. - p.coupling * (y > 0. ? y : -y) + y;
         }
 
         /** Where it is dense. */
@@ -337,37 +350,43 @@ namespace CaissonMPM
           }
         };
 
-        /** Whether state parameter and K0 are in the range of the law. */
+        /** Whether the state parameter is in the range of the law. */
         static bool
         check_state(const Parameters &p,
                     const LawContext &context,
                     LawMessage       &message)
         {
-          const double psi =
-                         context.void_ratio - p.Gamma +
-                         p.slope_of_line * __builtin_log(context.mean_stress),
-                       // of p_i = r p in triaxial compression
-            slope        = p.dilatancy / (1. + p.dilatancy * p.slope_of_line),
-                       y = -slope * psi,
-                       share =
-                         p.slope.share_at_rest(context.earth_pressure_at_rest);
-          if (y < least_dilatant || y > p.most_dilatant)
-            return message.refuse(
-              "Void ratio = %g makes a state parameter of %g at a mean stress "
-              "of %g Pa, and the law holds from %g to %g. Correct it, or Critical "
-              "void ratio at 1 kPa.",
-              context.void_ratio,
-              psi,
-              context.mean_stress,
-              -p.most_dilatant / slope,
-              -least_dilatant / slope);
-          const double peak = 1. - p.coupling * (y > 0. ? y : -y) + y;
-          return share < peak ||
+          const double y =
+            dilatant_state(context.mean_stress, context.void_ratio, p);
+          return (y >= least_dilatant && y <= p.most_dilatant) ||
                  message.refuse(
-                   "K0 = %g is beyond the peak strength, at a state parameter "
-                   "of %g. Correct it, Void ratio or Critical friction angle.",
-                   context.earth_pressure_at_rest,
-                   psi);
+                   "Void ratio = %g makes a state parameter of %g at a mean "
+                   "stress of %g Pa, and the law holds from %g to %g. Correct "
+                   "it, or Critical void ratio at 1 kPa.",
+                   context.void_ratio,
+                   -y / slope_of_state(p),
+                   context.mean_stress,
+                   -p.most_dilatant / slope_of_state(p),
+                   -least_dilatant / slope_of_state(p));
+        }
+
+        /** y over the state parameter, with the sign changed: of p_i = r p in
+         * triaxial compression. */
+        static double
+        slope_of_state(const Parameters &p)
+        {
+          return p.dilatancy / (1. + p.dilatancy * p.slope_of_line);
+        }
+
+        /** y at a mean stress (Pa). */
+        static double
+        dilatant_state(const double      mean_stress,
+                       const double      void_ratio,
+                       const Parameters &p)
+        {
+          return -slope_of_state(p) *
+                 (void_ratio - p.Gamma +
+                  p.slope_of_line * __builtin_log(mean_stress));
         }
 
         /** The smallest p_i. Units: Pa. */

@@ -102,8 +102,8 @@ namespace CaissonMPM
     has_friction() const;
 
     /** What the soil between z and a height above it can bear: the initial
-     * vertical effective stress at z or, where no soil has friction, half the
-     * least strength. Units: m, Pa. */
+     * vertical effective stress of the weight at z or, where no soil has
+     * friction, half the least strength. Units: m, Pa. */
     double
     stress_borne_above(const double z, const double height) const;
 
@@ -253,11 +253,19 @@ namespace CaissonMPM
                  const double     bottom,
                  const double     stress) const;
 
-    /** The stress that the element test of a user material begins with. */
+    /** The stress at the start at a depth, where this is the vertical one of
+     * the weight. Units: m, Pa. */
     Stress
-    stress_of_element_test(const SoilMaterial &material,
-                           const double        bottom,
-                           const double        vertical_stress) const;
+    stress_at_rest(const SoilMaterial &material,
+                   const double        depth,
+                   const double        vertical_stress) const;
+
+    /** Throw BadInput where the strength of the layer at one of these depths
+     * (m) does not hold the stress at the start; the text has the K0 that it
+     * holds where there is least room. */
+    void
+    check_at_rest(const SoilLayer           &layer,
+                  const std::vector<double> &depths) const;
 
     /** Parse Stress expression. */
     void

@@ -63,6 +63,11 @@ namespace CaissonMPM
     void
     check(const double mean_stress = 0.) const;
 
+    /** Whether the strength at the start holds a stress. A library of the user
+     * is not asked. Units: Pa. */
+    bool
+    bears(const Stress &stress) const;
+
     /** Mass of solids per volume of soil. Units: kg/m3. */
     double
     dry_density() const
