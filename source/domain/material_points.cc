@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/intervals.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
 #include <caisson_mpm/kernels/views.h>
@@ -390,6 +391,16 @@ namespace CaissonMPM
       return x < 0. ? 2 * direction : x > 1. ? 2 * direction + 1 : -1;
     }
 
+    std::string
+    in_words(const MaterialPoint &p)
+    {
+      return "material point " + to_text(static_cast<long>(p.id)) +
+             ", which began at r = " + to_text(p.initial_position[0], 6) +
+             " m, z = " + to_text(p.initial_position[1], 6) + " m and is at (" +
+             to_text(p.position[0], 6) + ", " + to_text(p.position[1], 6) +
+             ") m,";
+    }
+
     std::array<int, 2>
     faces_to_cross(const BackgroundGrid &grid,
                    const unsigned int    cell,
@@ -440,6 +451,7 @@ namespace CaissonMPM
     constexpr double margin = 1e-10, tolerance = 1e-2;
     if (!std::isfinite(point.position[0]) || !std::isfinite(point.position[1]))
       report_lost(point);
+    check_speed(cell, point);
     cell             = walk(cell, point.position);
     const auto faces = faces_to_cross(grid, cell, point.position);
     if (faces[0] < 0 && faces[1] < 0)
@@ -460,6 +472,29 @@ namespace CaissonMPM
         }
     point.position = to_position(grid.geometry(cell), x);
     return cell;
+  }
+
+  void
+  MaterialPoints::check_speed(const unsigned int   cell,
+                              const MaterialPoint &point) const
+  {
+    // no wave passes more than a cell in a step
+    constexpr double farthest = 1.; // cells beyond its own
+    const Point<2>   x = to_reference(grid.geometry(cell), point.position);
+    if (std::abs(x[0] - .5) <= .5 + farthest &&
+        std::abs(x[1] - .5) <= .5 + farthest)
+      return;
+    const auto &g = grid.geometry(cell);
+    throw RunFailure(
+      in_words(point) +
+      " has passed more than a cell in a step, with a velocity of (" +
+      to_text(point.velocity[0], 4) + ", " + to_text(point.velocity[1], 4) +
+      ") m/s, from the cell at r = " + to_text(g.left, 5) +
+      " m, z = " + to_text(g.bottom_left, 5) + " m of the " +
+      GridLines::name_of(grid.zone(cell)) +
+      " zone. Soil cannot move so fast: the computation has become unstable "
+      "there. Reduce Time/Courant number or Time/Inertia tolerance, and look "
+      "for a layer that is much softer or stiffer than the one beside it.");
   }
 
   void
@@ -488,12 +523,9 @@ namespace CaissonMPM
     std::ostringstream s;
     const bool         finite =
       std::isfinite(p.position[0]) && std::isfinite(p.position[1]);
-    s << "material point " << static_cast<long>(p.id)
-      << (finite ? " left the mesh" : " is no longer finite")
-      << ": it began at r = " << p.initial_position[0]
-      << " m, z = " << p.initial_position[1] << " m, and is at ("
-      << p.position[0] << ", " << p.position[1] << ") m with velocity ("
-      << p.velocity[0] << ", " << p.velocity[1] << ") m/s and mean stress "
+    s << in_words(p) << (finite ? " left the mesh" : " is no longer finite")
+      << " with velocity (" << p.velocity[0] << ", " << p.velocity[1]
+      << ") m/s and mean stress "
       << (p.stress[0] + p.stress[1] + p.stress[2]) / 3.
       << " Pa. Likely causes: a time step too large (reduce Time/Courant "
          "number), a mesh that ends where soil flows (raise Grid/Top, or make "

@@ -350,7 +350,9 @@ namespace CaissonMPM
       }
     catch (const RunFailure &error)
       {
-        throw RunFailure(error.what() + soil.cause_in_user_materials());
+        throw RunFailure(
+          "step " + to_text(clock.step) + ", t = " + to_text(clock.time, 6) +
+          " s: " + error.what() + soil.cause_in_user_materials());
       }
   }
 

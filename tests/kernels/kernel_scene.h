@@ -34,7 +34,8 @@ struct Scene
   std::vector<double>         filled_at_node = std::vector<double>(n_nodes, 1.);
   std::vector<unsigned char>  changed;
   std::vector<unsigned short> n_yielding;
-  Material                    material;
+  Material                    material, stiffer; // of no block by itself
+  std::vector<Material>       materials;
 
   GridView
   grid() const
@@ -61,9 +62,10 @@ struct Scene
   StepContext
   step(const IntegrationSettings &settings, std::vector<CellMoments> &moments)
   {
+    materials = {material, stiffer};
     return {view(),
             grid(),
-            &material,
+            materials.data(),
             settings,
             moments.data(),
             filled_at_node.data()};
@@ -165,6 +167,7 @@ make_scene(const double axisymmetric, const bool affine)
   s.material.p_wave_modulus     = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
   const double values[]         = {E, nu};
   set_law<LinearElastic>(s.material, read_parameters<LinearElastic>(values));
+  s.stiffer = s.material;
   return s;
 }
 

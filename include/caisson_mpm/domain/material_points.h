@@ -331,6 +331,10 @@ namespace CaissonMPM
     is_in_soil(const unsigned int cell, const dealii::Point<2> &position) const;
     unsigned int
     find_cell(unsigned int cell, MaterialPoint &point);
+
+    /** Throw RunFailure where a point has come too far from its last cell. */
+    void
+    check_speed(const unsigned int cell, const MaterialPoint &point) const;
     /** Begin with room for so many blocks. */
     void
     clear_blocks(const unsigned long n_blocks);

@@ -255,6 +255,27 @@ namespace CaissonMPM
             }
       }
 
+      /** Whether a cell has soil that is much softer than other soil in it. The
+       * stress that a filter moves from stiff to soft points would be energy
+       * from nowhere there, which makes the boundary of a soft layer unstable.
+       */
+      [[gnu::always_inline]] inline bool
+      mixes_stiffness(const StepContext &step, const unsigned int cell)
+      {
+        constexpr double much  = 2.;
+        double           least = no_limit, largest = 0.;
+        if (!step.moments[cell].several_materials)
+          return false;
+        for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
+          const Material &m =
+            step.materials[step.points.headers[block].material];
+          const double modulus = m.p_wave_modulus - m.water_modulus;
+          least                = modulus < least ? modulus : least;
+          largest              = modulus > largest ? modulus : largest;
+        });
+        return largest > much * least;
+      }
+
       /** Prepare the update of a cell, all but the mean divergence. */
       [[gnu::always_inline]] inline void
       prepare_cell(const StepContext &step,
@@ -278,7 +299,8 @@ namespace CaissonMPM
         update.bubble[0] = update.bubble[1] = 0.;
         update.speed_limit                  = 0.;
         update.fit                          = nullptr;
-        if (settings.stress_filter > 0. && moments.full > 0.)
+        if (settings.stress_filter > 0. && moments.full > 0. &&
+            !mixes_stiffness(step, cell))
           {
             update.fit                 = moments.fit;
             update.filtered_share      = settings.stress_filter * moments.full;
