@@ -5,7 +5,8 @@ Per directory: tip force and friction (kN, means over 0.2 m, see curves) at each
 then the required suction and the margin to piping, where there are any, and
   roughness  standard deviation of the curve minus its 0.2 m running mean over
              the mean of the latter, from 1 m on (%), tip and total
-  KE/W       largest kinetic energy over external work from 1 m on (%)
+  KE/W       largest kinetic energy over external work, once the waves of the
+             start have decayed (%)
 and the largest counts of points in the body and of limiter firings.
 """
 from collections.abc import Iterator, Sequence
@@ -67,14 +68,14 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
         else:
             unit = shown.name("kN")
             yield f"  {where}: tip {a:7.1f}  friction {b:7.1f} {unit}{words}"
-    if (depth >= curves.FROM).any():
-        rough = [
-            100 * curves.roughness(depth, force)
-            for force in (tip, history["total_force_N"])
-        ]
-        energy = 100 * curves.largest_energy_ratio(history)
-        words = "roughness: tip {:.2f} %, total {:.2f} %;  ".format(*rough)
-        yield f"  {words if np.isfinite(rough).all() else ''}KE/W {energy:.3f} %"
+    rough = [100 * curves.roughness(depth, f) for f in (tip, history["total_force_N"])]
+    words = []
+    if np.isfinite(rough).all():
+        words.append("roughness: tip {:.2f} %, total {:.2f} %".format(*rough))
+    if kinetic := run.summary.get("kinetic_energy"):
+        words.append(f"KE/W {100 * kinetic['share_of_work']:.3f} %")
+    if words:
+        yield "  " + ";  ".join(words)
     yield (
         f"  points in body {largest(history, 'points_in_body')}, limiter"
         f" {largest(history, 'limiter_count')}, steps {largest(history, 'step')}"

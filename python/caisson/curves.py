@@ -18,7 +18,7 @@ EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
 FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
-FROM = 1.0  # m, of roughness and energy ratio: the start is left out
+FROM = 1.0  # m, of roughness: the start is left out
 
 
 def window_of(way: float) -> float:
@@ -186,22 +186,6 @@ def roughness(position: np.ndarray, force: np.ndarray) -> float:
     if not used.any():
         return float("nan")
     return float(np.std(force[used] - mean[used]) / np.mean(mean[used]))
-
-
-def largest_energy_ratio(history: Table) -> float:
-    """Return the largest kinetic energy over the external work, whatever its sign, from
-    FROM on (a share of 1). Of a body that is pulled out it is that of the rows with a
-    pull, and at least a tenth of the largest work: the soil springs up when the load on
-    it goes."""
-    depth = history["penetration_m"]
-    work = np.abs(history["external_work_J"] + history.get("water_work_J", 0.0))
-    used = (depth >= FROM) & (work > 0)
-    if depth[-1] < depth[0]:
-        force = history.get(WITH_WATER, history["total_force_N"])
-        used = (force < 0) & (work > work.max() / 10)
-    if not used.any():
-        return float("nan")
-    return float((history["kinetic_energy_J"][used] / work[used]).max(initial=0.0))
 
 
 def gradient_share(history: Table) -> np.ndarray:

@@ -110,24 +110,6 @@ class Shape(unittest.TestCase):
         self.assertAlmostEqual(curves.roughness(x, zigzag), 0.1, delta=0.006)
         self.assertTrue(np.isnan(curves.roughness(0.1 * x, 5 + x)))
 
-    def test_largest_energy_ratio(self) -> None:
-        history = {
-            "penetration_m": np.array([0.5, 1.0, 2.0]),
-            "kinetic_energy_J": np.array([9.0, 1.0, 3.0]),
-            "external_work_J": np.array([1.0, 10.0, 60.0]),
-        }
-        self.assertAlmostEqual(curves.largest_energy_ratio(history), 0.1)
-
-    def test_energy_ratio_of_a_pull(self) -> None:
-        """Its work is negative; the release of the tip does not count."""
-        history = {
-            "penetration_m": np.array([2.0, 1.98, 1.96, 1.94]),
-            "kinetic_energy_J": np.array([9.0, 5.0, 1.0, 0.5]),
-            "external_work_J": np.array([0.0, -1.0, -100.0, -50.0]),
-            "total_force_N": np.array([1e6, 1e6, -1e3, -1e3]),
-        }
-        self.assertAlmostEqual(curves.largest_energy_ratio(history), 0.01)
-
     def test_relative_error(self) -> None:
         error = lab_curves.relative_error(np.array([1.1, 1.8]), np.array([1.0, 2.0]))
         self.assertAlmostEqual(error, 0.1)

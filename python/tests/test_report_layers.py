@@ -8,7 +8,6 @@ from synthetic import write_run
 from test_report import leave_run, SCENE, SUMMARY, WithPage
 
 import caisson.report as report
-from caisson import curves
 from caisson.report import content, layers, pull, sketch
 from caisson.results import Results
 
@@ -164,16 +163,13 @@ class Pulled(WithPage):
         self.assertEqual(names, ["Of which friction outside"])
 
     def test_begins_where_it_is_pulled(self) -> None:
-        """Behind the unloading of 1000 kN, over the first 20 mm; and no kinetic energy
-        is negative."""
+        """Behind the unloading of 1000 kN, over the first 20 mm."""
         run = self.leave_pull(sealed=False)
         history = dict(run.history)
         rise = 2 - history["penetration_m"]
         history["total_force_N"] = 1e6 - 5e7 * np.minimum(rise, 0.026)
-        history["kinetic_energy_J"] = np.full(len(rise), -1.0)
         write_run(self.path, history, dict(run.summary))
         run = Results(self.path)
-        self.assertEqual(curves.largest_energy_ratio(run.history), 0)
         (figure,) = content.figures_of(run, None)
         pulled = [c for c in figure["curves"] if c["label"] == "pull"][0]
         self.assertAlmostEqual(pulled["x"][0], 0, delta=101)

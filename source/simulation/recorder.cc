@@ -423,6 +423,8 @@ namespace CaissonMPM
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
     result.assumed        = assumed;
+    if (records)
+      result.kinetic = RunReview(parts, *records).kinetic_share();
     return result;
   }
 

@@ -115,6 +115,17 @@ namespace CaissonMPM
     }
 
     Json
+    about_inertia(const RunFacts &facts)
+    {
+      if (!facts.kinetic)
+        return Json::object();
+      return {{"kinetic_energy",
+               {{"share_of_work", facts.kinetic->share},
+                {"penetration_m", facts.kinetic->penetration},
+                {"largest_allowed", KineticShare::allowed}}}};
+    }
+
+    Json
     about_size(const RecordedParts &parts, const RunFacts &facts)
     {
       const auto sum = [&parts](const unsigned long value) {
@@ -342,7 +353,7 @@ namespace CaissonMPM
       if (std::abs(energy.relative) > largest_residual)
         console.warning("the energy residual is " +
                         percent(energy.relative, 3) +
-                        " of the work, and forces are uncertain by about as "
+                        " of the work, and forces are uncertain by at least as "
                         "much: see doc/limitations.md, Energy");
     }
   } // namespace
@@ -356,6 +367,7 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
+    members.update(about_inertia(facts));
     members.update(about_size(parts, facts));
     members.update(counts(parts, facts));
     members.update(about_speed(parts, facts));
@@ -382,6 +394,7 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
+    members.update(about_inertia(facts));
     append(members,
            {{"ranks", parts.grid.n_ranks()},
             {"cells", parts.grid.n_global_cells()},

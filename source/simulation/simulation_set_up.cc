@@ -505,6 +505,7 @@ namespace CaissonMPM
                  schedule,
                  mass_of_body(),
                  slowest_wave,
+                 time_step.has_inertia_tolerance(),
                  number_of_steps()},
                 origins)
       .all();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the program says against its own results, and against meshes at a tip that
 would spoil them: program.py."""
+import re
 import unittest
 
 from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, user_scene
@@ -119,6 +120,41 @@ class RunReview(ProgramTest):
                 },
             )
             self.assertEqual("Set Mean volume change = true" in text, is_warned, nu)
+
+    def test_settings_that_change_the_force(self) -> None:
+        """They are warned of before the run."""
+        points = "Material points/Per direction in"
+        cases: tuple[tuple[str, object, str], ...] = (
+            ("Method/FLIP fraction", 0, "raise the tip force"),
+            ("Method/FLIP fraction", 0.9, "raise the tip force"),
+            ("Method/FLIP fraction", 0.95, ""),
+            (f"{points} path", 1, "one point per cell"),
+            ("Material points/Per direction far", 1, "one point per cell"),
+            (f"{points} path", 2, ""),
+        )
+        for entry, value, words in cases:
+            with self.subTest(entry=entry, value=value):
+                text = self.run_program(
+                    SUCCESS,
+                    user_scene("jack_coarse"),
+                    "--validate",
+                    entries={entry: value},
+                )
+                self.assertEqual("warning" in text, bool(words), text)
+                self.assertIn(words, text)
+
+    def test_surcharge_is_no_strength(self) -> None:
+        """The inertia tolerance takes the weight of the soil, not the load on it."""
+        steps = []
+        for surcharge in (0, 5e5):
+            text = self.run_program(
+                SUCCESS,
+                user_scene("jack_coarse"),
+                "--validate",
+                entries={"Soil/Surcharge": surcharge},
+            )
+            steps.append(re.findall(r"time step +(\S+) s", text)[0])
+        self.assertEqual(*steps)
 
     def test_lost_work(self) -> None:
         """A viscous transfer takes more than a tenth of the work."""

@@ -10,6 +10,8 @@
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
 
+#include <algorithm>
+
 
 namespace CaissonMPM
 {
@@ -74,6 +76,12 @@ namespace CaissonMPM
     points_per_direction_in_path() const
     {
       return per_direction[static_cast<unsigned int>(PointZone::path)];
+    }
+
+    unsigned int
+    least_points_per_direction() const
+    {
+      return *std::min_element(per_direction.begin(), per_direction.end());
     }
 
   private:

@@ -73,6 +73,13 @@ namespace CaissonMPM
       flip_fraction_of_scene = vibrates ? 0.95 : 0.99;
     }
 
+    /** The FLIP fraction of the scene; nothing with auto. */
+    std::optional<double>
+    given_flip_fraction() const
+    {
+      return flip_fraction;
+    }
+
     /** Share of a point's own velocity that it keeps (FLIP: 1). */
     double
     keep_velocity(const StepSize &step) const;

@@ -7,7 +7,9 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
+#include <caisson_mpm/simulation/run_review.h>
 
+#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -29,8 +31,9 @@ namespace CaissonMPM
     double               point_steps    = 0.; // of all ranks
     double               wall_time      = 0.; // s
     std::vector<Warning> warnings;            // of the input and of the run
-    std::vector<std::string> assumed;         // entries marked so
-    NamedNumbers             progress;        // of a run that has not ended
+    std::vector<std::string>    assumed;      // entries marked so
+    NamedNumbers                progress;     // of a run that has not ended
+    std::optional<KineticShare> kinetic;      // on the rank with the records
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The

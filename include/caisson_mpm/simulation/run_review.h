@@ -15,11 +15,38 @@
 
 namespace CaissonMPM
 {
+  /** The kinetic energy of the soil over the work of the body, where it is
+   * largest. */
+  struct KineticShare
+  {
+    double share       = 0.;
+    double penetration = 0.; // m
+
+    /** The largest share of a run whose forces are those of slow motion. */
+    static constexpr double allowed = .01;
+  };
+
+  /**
+   * Find it in the records of a run from the penetration @p start (m) on, once
+   * the waves of the start have decayed: from the first record on that has no
+   * more than is allowed, or in the last one if there is none. Of a body that
+   * is pulled up, only the records with a pull count that have at least a tenth
+   * of the largest work: soil springs up when the load on it goes. Nothing if
+   * no record counts. All vectors: [n_records]; @p force on the soil, downward
+   * (N); @p kinetic_energy and @p work (J).
+   */
+  std::optional<KineticShare>
+  find_kinetic_share(const std::vector<double> &penetration,
+                     const std::vector<double> &force,
+                     const std::vector<double> &kinetic_energy,
+                     const std::vector<double> &work,
+                     const double               start);
+
   /**
    * Looks at the records of a run for signs of a numerical fault: a tip force
-   * that falls suddenly, a wall from which clay has come off, and work that
-   * the transfer between points and nodes loses. On the rank that has the
-   * records; not collective.
+   * that falls suddenly, a wall from which clay has come off, work that the
+   * transfer between points and nodes loses, and soil that moves too fast. On
+   * the rank that has the records; not collective.
    */
   class RunReview
   {
@@ -29,6 +56,11 @@ namespace CaissonMPM
     /** Return a warning for each fault that is seen. */
     std::vector<std::string>
     warnings() const;
+
+    /** The kinetic energy over the work, from two widths of the tip below the
+     * start on; nothing without a body that has a tip. */
+    std::optional<KineticShare>
+    kinetic_share() const;
 
     /** What a stretch of the way into the soil shows, as means. */
     struct Stretch
@@ -64,6 +96,8 @@ namespace CaissonMPM
     bare_wall(const unsigned int wall) const;
     std::optional<std::string>
     lost_work() const;
+    std::optional<std::string>
+    fast_soil() const;
 
     /** Whether a layer has a tension cut-off, so that it may come off a wall.
      */
@@ -76,6 +110,7 @@ namespace CaissonMPM
     adhesion_down_to(const double depth, const unsigned int wall) const;
 
     const RecordedParts  parts;
+    const Records       &records;
     const double         width; // of the tip, m
     std::vector<Stretch> way;   // down, until the body is first pulled up
   };

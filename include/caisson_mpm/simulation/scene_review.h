@@ -32,7 +32,8 @@ namespace CaissonMPM
     const Schedule       &schedule;
     double                body_mass;  // of its cells, kg
     double                wave_speed; // least one of the layers, m/s
-    double                n_steps;    // infinite where the end is not known
+    bool                  has_inertia_tolerance;
+    double                n_steps; // infinite where the end is not known
   };
 
   /**
@@ -77,6 +78,8 @@ namespace CaissonMPM
     void
     layers();
     void
+    contrast_of_stiffness();
+    void
     stiffness_and_strength(const SoilMaterial &soil);
     void
     undrained_volume(const SoilMaterial &soil);
@@ -104,6 +107,8 @@ namespace CaissonMPM
     cells_at_tip();
     void
     points_at_tip();
+    void
+    transfer();
     void
     friction();
     /** Warn of walls that are rougher than a soil beside them. Outer and inner

@@ -390,18 +390,18 @@ def remarks_on_numbers(run: Results) -> list[str]:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:
             rough = 100 * curves.roughness(depth, history["total_force_N"])
-            energy = 100 * curves.largest_energy_ratio(history)
             if math.isfinite(rough):
                 found.append(
                     f"The curve scatters by {rough:.2g} % about its mean over"
                     f" {curves.FORCE_WINDOW} m."
                 )
-            words = "slow enough" if energy < 1 else "fast; halve the velocity to see"
-            if math.isfinite(energy):
-                found.append(
-                    f"Kinetic energy is at most {energy:.2g} % of the work: the run is"
-                    f" {words}."
-                )
+    if kinetic := summary.get("kinetic_energy"):
+        slow = kinetic["share_of_work"] <= kinetic["largest_allowed"]
+        found.append(
+            f"Kinetic energy is at most {100 * kinetic['share_of_work']:.2g} % of the"
+            f" work, once the waves of the start have decayed: the run is"
+            f" {'slow enough' if slow else 'too fast, see the warnings'}."
+        )
     inside = summary.get("max_points_in_body", 0)
     found.append(
         "No material point was inside the body."
