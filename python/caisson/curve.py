@@ -69,13 +69,13 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
             unit = shown.name("kN")
             yield f"  {where}: tip {a:7.1f}  friction {b:7.1f} {unit}{words}"
     rough = [100 * curves.roughness(depth, f) for f in (tip, history["total_force_N"])]
-    words = []
+    found: list[str] = []
     if np.isfinite(rough).all():
-        words.append("roughness: tip {:.2f} %, total {:.2f} %".format(*rough))
+        found.append("roughness: tip {:.2f} %, total {:.2f} %".format(*rough))
     if kinetic := run.summary.get("kinetic_energy"):
-        words.append(f"KE/W {100 * kinetic['share_of_work']:.3f} %")
-    if words:
-        yield "  " + ";  ".join(words)
+        found.append(f"KE/W {100 * kinetic['share_of_work']:.3f} %")
+    if found:
+        yield "  " + ";  ".join(found)
     yield (
         f"  points in body {largest(history, 'points_in_body')}, limiter"
         f" {largest(history, 'limiter_count')}, steps {largest(history, 'step')}"

@@ -77,7 +77,7 @@ def differences(state: Exported) -> dict[str, float]:
     forces of the run on the walls and the tip, as shares of 1."""
     known = {name: force_of_run(state.state, name) for name in state.wall}
     runs = {name: force for name, force in known.items() if force is not None}
-    least = LEAST_WALL * sum(map(abs, runs.values()))
+    least = LEAST_WALL * sum(abs(force) for force in runs.values())
     found = {
         name: abs(state.wall[name] - force) / max(abs(force), least)
         for name, force in runs.items()
