@@ -350,9 +350,10 @@ namespace CaissonMPM
       }
     catch (const RunFailure &error)
       {
-        throw RunFailure(
-          "step " + to_text(clock.step) + ", t = " + to_text(clock.time, 6) +
-          " s: " + error.what() + soil.cause_in_user_materials());
+        throw RunFailure(std::string(error.what()) + " This was in step " +
+                         to_text(clock.step) +
+                         ", at t = " + to_text(clock.time, 6) + " s." +
+                         soil.cause_in_user_materials());
       }
   }
 

@@ -85,7 +85,7 @@ CONTRADICTIONS: tuple[tuple[list[str], Values], ...] = (
         },
     ),
     (["Frame interval", "at least 1e-09"], {"Output/Frame interval": 1e-300}),
-    (["K0", "Change"], {f"{LAYER}/K0": 9}),
+    (["K0", "holds K0 from 0.3337 to 2.999"], {f"{LAYER}/K0": 9}),
     (
         ["Top depth", "layers"],
         {"Soil/Number of layers": 2, "Soil/Layer 2/Porosity": 0.4},

@@ -71,7 +71,7 @@ class Limits(ProgramTest):
             FAILURE,
             entries={"Method/Mass floor": "false"},
         )
-        self.assertRegex(text, "left the mesh|finite")
+        self.assertRegex(text, "passed more than a cell in a step|finite")
         path = self.directory()
         self.run_scene(
             "block_mass_floor", path, entries={"Output/Record interval": 0.02}
