@@ -125,8 +125,8 @@ class RunReview(ProgramTest):
         """They are warned of before the run."""
         points = "Material points/Per direction in"
         cases: tuple[tuple[str, object, str], ...] = (
-            ("Method/FLIP fraction", 0, "raise the tip force"),
-            ("Method/FLIP fraction", 0.9, "raise the tip force"),
+            ("Method/FLIP fraction", 0, "makes the transfer"),
+            ("Method/FLIP fraction", 0.9, "makes the transfer"),
             ("Method/FLIP fraction", 0.95, ""),
             (f"{points} path", 1, "one point per cell"),
             ("Material points/Per direction far", 1, "one point per cell"),
