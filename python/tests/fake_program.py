@@ -7,7 +7,7 @@ Entries: Soil/Friction angle (30), Soil/Stiffness (5e6), Soil/Kind (sand). It re
 angle below 0 with --validate, and breaks off at 3 m where it is above 40. The variable
 FAKE_PROGRAM_POINTS makes --validate report a number of points, and FAKE_PROGRAM_HOLDS
 names the directory of a run that leaves a checkpoint and does not end. A run with
---restart has a + in calls.
+--restart has a + in calls; --overwrite removes forces.png, as the program does.
 """
 import argparse
 import os
@@ -82,6 +82,8 @@ def main() -> int:
         print("bad input: Friction angle must be positive", file=sys.stderr)
         return 1
     if not words.validate:
+        if words.overwrite:
+            (words.output_directory / "forces.png").unlink(missing_ok=True)
         return run(entries, words.output_directory, "+" * words.restart)
     print("a.prm is valid")
     if points := os.environ.get("FAKE_PROGRAM_POINTS"):
