@@ -391,16 +391,6 @@ namespace CaissonMPM
       return x < 0. ? 2 * direction : x > 1. ? 2 * direction + 1 : -1;
     }
 
-    std::string
-    in_words(const MaterialPoint &p)
-    {
-      return "material point " + to_text(static_cast<long>(p.id)) +
-             ", which began at r = " + to_text(p.initial_position[0], 6) +
-             " m, z = " + to_text(p.initial_position[1], 6) + " m and is at (" +
-             to_text(p.position[0], 6) + ", " + to_text(p.position[1], 6) +
-             ") m,";
-    }
-
     std::array<int, 2>
     faces_to_cross(const BackgroundGrid &grid,
                    const unsigned int    cell,
@@ -475,29 +465,6 @@ namespace CaissonMPM
   }
 
   void
-  MaterialPoints::check_speed(const unsigned int   cell,
-                              const MaterialPoint &point) const
-  {
-    // no wave passes more than a cell in a step
-    constexpr double farthest = 1.; // cells beyond its own
-    const Point<2>   x = to_reference(grid.geometry(cell), point.position);
-    if (std::abs(x[0] - .5) <= .5 + farthest &&
-        std::abs(x[1] - .5) <= .5 + farthest)
-      return;
-    const auto &g = grid.geometry(cell);
-    throw RunFailure(
-      in_words(point) +
-      " has passed more than a cell in a step, with a velocity of (" +
-      to_text(point.velocity[0], 4) + ", " + to_text(point.velocity[1], 4) +
-      ") m/s, from the cell at r = " + to_text(g.left, 5) +
-      " m, z = " + to_text(g.bottom_left, 5) + " m of the " +
-      GridLines::name_of(grid.zone(cell)) +
-      " zone. Soil cannot move so fast: the computation has become unstable "
-      "there. Reduce Time/Courant number or Time/Inertia tolerance, and look "
-      "for a layer that is much softer or stiffer than the one beside it.");
-  }
-
-  void
   MaterialPoints::stop_at_side(const double       coordinate,
                                const unsigned int face,
                                MaterialPoint     &point)
@@ -515,24 +482,6 @@ namespace CaissonMPM
     if (++n_thrown_off > most)
       report_lost(point);
     velocity = 0.;
-  }
-
-  void
-  MaterialPoints::report_lost(const MaterialPoint &p) const
-  {
-    std::ostringstream s;
-    const bool         finite =
-      std::isfinite(p.position[0]) && std::isfinite(p.position[1]);
-    s << in_words(p) << (finite ? " left the mesh" : " is no longer finite")
-      << " with velocity (" << p.velocity[0] << ", " << p.velocity[1]
-      << ") m/s and mean stress "
-      << (p.stress[0] + p.stress[1] + p.stress[2]) / 3.
-      << " Pa. Likely causes: a time step too large (reduce Time/Courant "
-         "number), a mesh that ends where soil flows (raise Grid/Top, or make "
-         "the side a roller), soil without strength at a free surface (add some "
-         "cohesion and Tension cut-off), or soil whose dilatancy angle is near "
-         "its friction angle (set Method/Pressure in full cells = mean).";
-    throw RunFailure(s.str());
   }
 
   // ------------------------------------------------------------ all points

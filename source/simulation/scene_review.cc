@@ -117,33 +117,6 @@ namespace CaissonMPM
   }
 
   void
-  SceneReview::contrast_of_stiffness()
-  {
-    // with 200 runs came through the boundary, with 500 they became unstable;
-    // with a uniform scaling these came through
-    constexpr double      largest = 250.;
-    std::optional<double> above;
-    for (const unsigned int i : scene.soil.uppermost_materials())
-      {
-        const SoilMaterial &soil   = scene.soil.material(i);
-        const auto          youngs = soil.law_value("Youngs modulus");
-        const double        ratio =
-          youngs && above ? std::max(*youngs / *above, *above / *youngs) : 1.;
-        if (ratio > largest)
-          doubt(soil.section() + "/Youngs modulus",
-                *youngs,
-                "Pa",
-                "differs from that of the layer above by a factor of " +
-                  to_text(ratio, 3) +
-                  ". With Time/Inertia tolerance, a run may become unstable at "
-                  "such a boundary, and end there. Bring the two within a "
-                  "factor of 200, or set Inertia tolerance = none and Mass "
-                  "scaling = 25, which takes longer.");
-        above = youngs;
-      }
-  }
-
-  void
   SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
     constexpr double stiff_volume = .4;
@@ -377,10 +350,8 @@ namespace CaissonMPM
     const BodyShape &shape    = scene.body.shape();
     if (is_pushed_in() && scene.generator.least_points_per_direction() == 1)
       origins.add_warning(
-        "one point per cell, by Material points/Per direction in path, near or "
-        "far, makes the tip too weak: it has been seen to bear half of what it "
-        "does with three points, and 10 % less with one point in far cells "
-        "only. Set at least 2 everywhere.");
+        "one point per cell (section Material points) makes the tip too weak, "
+        "by up to a half. Set at least 2 everywhere.");
     if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough &&
         scene.lines.total_travel() > widths * (shape.right() - shape.left()))
       throw BadInput(
@@ -394,15 +365,14 @@ namespace CaissonMPM
   void
   SceneReview::transfer()
   {
-    constexpr double least = .95; // of auto
-    const auto       flip  = scene.method.given_flip_fraction();
-    if (is_pushed_in() && flip && *flip < least)
+    const auto flip = scene.method.given_flip_fraction();
+    if (is_pushed_in() && flip && *flip < .95) // the least of auto
       doubt("Method/FLIP fraction",
             *flip,
             "",
-            "makes the transfer between points and nodes viscous. The tip "
-            "force of a caisson has been seen to rise by 3 to 6 % with 0.9, 15 "
-            "to 30 % with 0.5, and 20 to 55 % with 0. Set auto.");
+            "makes the transfer viscous. The tip force of a caisson has been "
+            "seen to rise by 3 to 6 % with 0.9, 15 to 30 % with 0.5, and 20 to "
+            "55 % with 0. Set auto.");
   }
 
   void

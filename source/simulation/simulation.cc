@@ -350,10 +350,8 @@ namespace CaissonMPM
       }
     catch (const RunFailure &error)
       {
-        throw RunFailure(std::string(error.what()) + " This was in step " +
-                         to_text(clock.step) +
-                         ", at t = " + to_text(clock.time, 6) + " s." +
-                         soil.cause_in_user_materials());
+        const std::string when = " t = " + to_text(clock.time, 6) + " s.";
+        throw RunFailure(error.what() + when + soil.cause_in_user_materials());
       }
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Which stresses soil can have: each entry in Pa that the user sets is compared
-// with a range, so that numbers in kPa or MPa are noticed.
+// with a range, so that numbers in kPa or MPa are noticed; and the stiffness of
+// a layer with that of the layer above.
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/scene_review.h>
@@ -153,6 +154,33 @@ namespace CaissonMPM
                             " Pa in the vertical at " + to_text(depth, 4) +
                             " m, and the weight of the soil above is " +
                             to_text(weight_above(), 4) + " Pa" + advice);
+  }
+
+  void
+  SceneReview::contrast_of_stiffness()
+  {
+    // with 200 runs came through the boundary, with 500 they became unstable;
+    // with a uniform scaling these came through
+    constexpr double      largest = 250.;
+    std::optional<double> above;
+    for (const unsigned int i : scene.soil.uppermost_materials())
+      {
+        const SoilMaterial &soil   = scene.soil.material(i);
+        const auto          youngs = soil.law_value("Youngs modulus");
+        const double        ratio =
+          youngs && above ? std::max(*youngs / *above, *above / *youngs) : 1.;
+        if (ratio > largest)
+          doubt(soil.section() + "/Youngs modulus",
+                *youngs,
+                "Pa",
+                "differs from that of the layer above by a factor of " +
+                  to_text(ratio, 3) +
+                  ". With Time/Inertia tolerance, a run may become unstable at "
+                  "such a boundary, and end there. Bring the two within a "
+                  "factor of 200, or set Inertia tolerance = none and Mass "
+                  "scaling = 25, which takes longer.");
+        above = youngs;
+      }
   }
 
   double

@@ -259,6 +259,26 @@ check_refusals()
       }
 }
 
+/** Stresses that no K0 describes. */
+void
+check_given_stresses()
+{
+  for (const std::string stress : {"-1e5, -1e5, -1e5, 0",
+                                   "-1e5, 1e5, -1e5, 0",
+                                   "-1e5, -1e5, -1e5, 8e4",
+                                   "-1e5, -1e5, -4e5, 0"})
+    try
+      {
+        const Ground g("set Initial stress = uniform\nset Uniform stress = " +
+                       stress + "\n");
+        std::printf("held: %s\n", stress.c_str());
+      }
+    catch (const BadInput &error)
+      {
+        std::printf("refused: %s\n", error.what());
+      }
+}
+
 int
 main(int, char **)
 {
@@ -270,5 +290,6 @@ main(int, char **)
   check_given_stress();
   check_cohesion_and_tension();
   check_refusals();
+  check_given_stresses();
   return 0;
 }
