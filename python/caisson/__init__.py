@@ -13,8 +13,7 @@ For scripts and notebooks (doc/how_to/python.md):
 The modules of the core, each above those that it uses:
 
     disk, paths, table      files, where things are, how tables look
-    nature                  constants of nature and of usual soil
-    units, shown            units in names, and those in which results are shown
+    units, shown            units in names and constants; units of results
     scenes, lock            the scenes that come with the program; the lock of a run
     runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Units at the end of names, as in tip_force_N and velocity_m_s: of the columns of
-tables and of the arrays of frames."""
+tables and of the arrays of frames. Constants of nature and of usual soil, in SI units."""
+
+GRAVITY = 9.81
+ATMOSPHERE = 100e3  # the stress by which correlations are normalized
+WATER_DENSITY, QUARTZ_DENSITY = 1000.0, 2650.0
+WATER = WATER_DENSITY * GRAVITY  # its unit weight
 
 # the end of a name, and the unit; a longer end comes before one that ends like it
 UNITS = {

@@ -32,7 +32,7 @@ from caisson.design.correlations import (
     STRENGTH,
 )
 from caisson.design.ground import CLAY, SAND, SILT, Ground
-from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
+from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
 
 ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84

@@ -22,7 +22,7 @@ from caisson.design.cone_estimates import (
 )
 from caisson.design.cone_rules import ASSUMED
 from caisson.design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
-from caisson.nature import WATER
+from caisson.units import WATER
 from caisson.design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.stats import theilslopes
 
 from caisson.disk import InputError
-from caisson.nature import WATER
+from caisson.units import WATER
 from caisson.design.cone_table import Table, cell_of, more
 from caisson.design.cone_words import QUANTITIES
 

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.nature import ATMOSPHERE
+from caisson.units import ATMOSPHERE
 
 CRITICAL_ANGLE = 33.0  # of quartz
 MOST_INDEX = 4.0  # of I_R

@@ -35,7 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson.design.cone_file import Test
-from caisson.nature import ATMOSPHERE, GRAVITY, WATER
+from caisson.units import ATMOSPHERE, GRAVITY, WATER
 
 LEAST_STRESS = 1e3  # of sigma'_v where something is divided by it: some 0.1 m of depth
 WEIGHTS = 14e3, 22e3  # between which the formula is held

@@ -12,7 +12,7 @@ import numpy as np
 
 from caisson import disk
 from caisson.export.exported import Exported
-from caisson.nature import GRAVITY
+from caisson.units import GRAVITY
 from caisson.export.text import TOTAL, about
 from caisson.template import template
 

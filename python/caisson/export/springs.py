@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from caisson.loaded import LoadedRun
-from caisson.nature import GRAVITY, WATER_DENSITY
+from caisson.units import GRAVITY, WATER_DENSITY
 from caisson.paths import without_user
 from caisson.results import ResultsError, Table
 from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus

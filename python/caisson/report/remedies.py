@@ -16,7 +16,7 @@ import numpy as np
 
 from caisson.design import shell
 from caisson.design.suction_installation import bisect
-from caisson.nature import GRAVITY
+from caisson.units import GRAVITY
 from caisson.plot import limits, suction_methods, theory
 from caisson.report.installation import NOTHING, Installation
 from caisson.report.scene import end_of

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from caisson import density_law as names
-from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER
+from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
 from caisson.design.cone_estimates import CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY

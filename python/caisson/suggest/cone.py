@@ -4,7 +4,7 @@ from typing import Any
 
 from caisson import density_law
 from caisson.design.cone_texts import SHOWN, text_of
-from caisson.nature import QUARTZ_DENSITY
+from caisson.units import QUARTZ_DENSITY
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED, BY_STRESS

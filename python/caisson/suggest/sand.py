@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
-from caisson.nature import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
+from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
 from caisson.design.correlations import MODULUS_RATIOS
 from caisson.design.density import (

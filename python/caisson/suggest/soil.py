@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 from caisson import density_law as names
-from caisson.nature import QUARTZ_DENSITY
+from caisson.units import QUARTZ_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest import clay, sand
 from caisson.design import expression, quantity
