@@ -37,7 +37,7 @@ from caisson.export import command, decks, tables
 from caisson.export.exported import Exported, force_of_run
 from caisson.export.interpolate import interpolate
 from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
-from caisson.export.text import about, judged
+from caisson.export.text import about, about_signs, judged
 
 CCX = shutil.which("ccx")
 ZONES = {"inside", "outside_near", "outside", "below_tip"}
@@ -256,7 +256,11 @@ class Balance(Temporary):
         pull = (clay.applied - sand.applied)[:, 1].sum()
         self.assertAlmostEqual(pull / (5e4 * np.pi * WEDGE.inner**2), 1, delta=0.1)
         np.testing.assert_array_equal(clay.total, clay.values.stress)
-        self.assertIn("Layer 1: undrained clay by total stress", "\n".join(about(clay)))
+        said = "\n".join(about(clay))
+        self.assertIn("Layer 1: undrained clay by total stress", said)
+        self.assertIn("Stresses are total, in Pa", said)
+        state.layers.append(made_up().layers[0])
+        self.assertIn("effective, but total in layer 1, in Pa", about_signs(state)[0])
 
     @unittest.skipUnless(CCX, "needs ccx of the package calculix-ccx")
     def test_calculix(self) -> None:

@@ -146,6 +146,15 @@ class Vessel(unittest.TestCase):
         said = words.of_forecast(found, ahead)
         self.assertRegex(said, r"refusal between 6.* and 8.* m, most likely at 6\.9 m")
 
+    def test_above_the_allowable(self) -> None:
+        """It is said from where on the measured suction was more than allowed."""
+        self.write_runs(boiling=(BEST[300] - WEIGHT) / AREA)
+        for last, wanted in ((5.0, "^$"), (8.0, r"from (6\.[7-9]|7|7\.1) m on")):
+            self.write_log(BEST, last)
+            found, bins, ahead = self.answer()
+            said = words.of_allowable(found, bins, ahead.weight)
+            self.assertRegex(said, wanted)
+
     def test_nine_of_ten(self) -> None:
         """The band of the forecast holds, over all of its way, in nine of ten soils of
         layers, waves, trends and jumps, of which the band of the runs is nine in ten.

@@ -72,6 +72,23 @@ def of_band(expected: Expected, bins: Bins) -> str:
     return f"The log, down to {place(last)}, is {' and '.join(parts)}."
 
 
+def of_allowable(expected: Expected, bins: Bins, weight: float) -> str:
+    """Return where a measured suction is above the allowable one; weight: in kN."""
+    shown = expected.run.shown
+    measured = expected.suction(bins.resistance, weight)
+    limit = np.interp(bins.depth, expected.depth, expected.allowable)
+    begin = meets(bins.depth, measured, limit)
+    if begin is None:
+        return ""
+    i = int(np.nanargmax(measured / limit))
+    most, least = (shown.words(side[i], "kPa", ".3g") for side in (measured, limit))
+    return (
+        f"The measured suction is above the allowable one from {shown.place(begin, 1)}"
+        f" on: {most} at {shown.place(float(bins.depth[i]), 1)}, where {least} is"
+        " allowed."
+    )
+
+
 def of_fit(fit: Fit) -> str:
     """Return what fits a log."""
     value, low, high = fit.factor
@@ -166,6 +183,7 @@ def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[s
     """Return the sentences, that of the forecast first."""
     lines = (
         of_forecast(expected, forecast),
+        of_allowable(expected, bins, forecast.weight),
         of_band(expected, bins),
         of_fit(fit),
         of_end(expected),
