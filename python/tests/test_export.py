@@ -37,7 +37,7 @@ from caisson.export import command, decks, tables
 from caisson.export.exported import Exported, force_of_run
 from caisson.export.interpolate import interpolate
 from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
-from caisson.export.text import about, about_signs, judged
+from caisson.export.text import about, judged
 
 CCX = shutil.which("ccx")
 ZONES = {"inside", "outside_near", "outside", "below_tip"}
@@ -245,8 +245,7 @@ class Balance(Temporary):
         self.assertAlmostEqual(on_mesh(state).applied[:, 1].sum() / -1e5, 1, delta=0.1)
 
     def test_suction_on_clay(self) -> None:
-        """It pulls at the surface of a plug whose total stress is known, and the files
-        say which layers these are."""
+        """It pulls at the surface of a plug of total stress; files name such layers."""
         state = made_up()
         state.suction = 5e4
         sand = on_mesh(state)
@@ -256,11 +255,8 @@ class Balance(Temporary):
         pull = (clay.applied - sand.applied)[:, 1].sum()
         self.assertAlmostEqual(pull / (5e4 * np.pi * WEDGE.inner**2), 1, delta=0.1)
         np.testing.assert_array_equal(clay.total, clay.values.stress)
-        said = "\n".join(about(clay))
-        self.assertIn("Layer 1: undrained clay by total stress", said)
-        self.assertIn("Stresses are total, in Pa", said)
-        state.layers.append(made_up().layers[0])
-        self.assertIn("effective, but total in layer 1, in Pa", about_signs(state)[0])
+        said = r"(?s)Stresses are total, .*Layer 1: undrained clay by total stress"
+        self.assertRegex("\n".join(about(clay)), said)
 
     @unittest.skipUnless(CCX, "needs ccx of the package calculix-ccx")
     def test_calculix(self) -> None:

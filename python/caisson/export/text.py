@@ -4,8 +4,8 @@ from caisson.export.exported import Exported, force_of_run
 from caisson.export.state import STIFFNESS, State
 
 SIGNS = (
-    "Stresses are effective, in Pa, positive in tension: rr radial, zz vertical, tt"
-    " hoop, rz shear. Excess pore pressure is positive in compression.",
+    "in Pa, positive in tension: rr radial, zz vertical, tt hoop, rz shear. Excess pore"
+    " pressure is positive in compression.",
     "r is the distance from the axis, z is upward from the surface of the ground at the"
     " start (m). Forces are for the whole circumference.",
 )
@@ -31,13 +31,27 @@ def percent(share: float) -> str:
     return f"{float(f'{100 * share:.2g}'):.9g} %"
 
 
+def total_layers(state: State) -> str:
+    """Return the numbers of the layers whose stress is total."""
+    return ", ".join(str(layer.number) for layer in state.layers if layer.total)
+
+
+def about_signs(state: State) -> list[str]:
+    """Return the lines on kind, unit and sign of the stress."""
+    numbers, kind = total_layers(state), "effective"
+    if numbers:
+        is_all = all(layer.total for layer in state.layers)
+        kind = "total" if is_all else f"effective, but total in layer {numbers}"
+    return [f"Stresses are {kind}, {SIGNS[0]}", *SIGNS[1:]]
+
+
 def about_total_stress(state: State) -> list[str]:
     """Return the line on layers whose stress is total."""
-    numbers = [str(layer.number) for layer in state.layers if layer.total]
+    numbers = total_layers(state)
     if not numbers:
         return []
     return [
-        f"Layer {', '.join(numbers)}: undrained clay by total stress. Its stress is"
+        f"Layer {numbers}: undrained clay by total stress. Its stress is"
         " the total one less the hydrostatic pressure; its pore pressure is not known,"
         " and 0 here."
     ]
@@ -47,8 +61,8 @@ def about_state(state: State) -> list[str]:
     """Return what run and frame it is."""
     depth = f", penetration {state.penetration:.6g} m" if state.wall else ""
     where = f"at {state.time:.6g} s{depth}"
-    lines = [f"caisson_mpm: {state.title}", where, *SIGNS, *about_total_stress(state)]
-    return [*lines, NOT_BALANCED]
+    lines = [f"caisson_mpm: {state.title}", where, *about_signs(state)]
+    return [*lines, *about_total_stress(state), NOT_BALANCED]
 
 
 def about_balance(state: Exported) -> list[str]:
