@@ -229,7 +229,7 @@ def size_row(planned: Planned, name: str, found: float | None, why: str) -> list
     tried = float(f"{share * factor * old:.3g}")
     depth = reach(planned, name, tried / factor)
     gained = depth > planned.found.depth[-1] + 0.05
-    place = planned.found.shown.place(depth, 1)
+    place = planned.found.shown.place(depth)
     text = f"{tried:g} {unit} would reach {place}" if gained else ""
     return [name, "; ".join(filter(None, [why, text]))]
 
