@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Units at the end of names, as in tip_force_N and velocity_m_s: of the columns of
-tables and of the arrays of frames. Constants of nature and of usual soil, in SI units."""
+tables and of the arrays of frames; and constants of nature and of usual soil, in SI."""
 
 GRAVITY = 9.81
 ATMOSPHERE = 100e3  # the stress by which correlations are normalized

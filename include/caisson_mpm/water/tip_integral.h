@@ -6,6 +6,7 @@
 #define caisson_mpm_water_tip_integral_h
 
 #include <caisson_mpm/water/cell_integrals.h>
+#include <caisson_mpm/water/mudline.h>
 
 #include <deal.II/base/mpi.h>
 
