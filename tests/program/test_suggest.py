@@ -65,12 +65,12 @@ class Sizes(SuggestTest):
                 self.run_program(SUCCESS, path, "--validate", "--strict")
 
     def test_drawn_at_random(self) -> None:
-        """Sand, clay and both, small and large: the first scenes of the laboratory run
+        """Small and large, of every second kind: the first scenes of the laboratory run
         without a warning of what the tool has chosen."""
         options = argparse.Namespace(
             results=self.made_directory(), validate=False, walls=0.05, limit=1000
         )
-        for number in range(suggested.QUICK):
+        for number in range(0, suggested.QUICK, 2):
             case = suggested.case_of(suggested.SEED, number)
             with self.subTest(case.soil):
                 file = options.results / f"scene_{number:02d}.prm"
