@@ -131,7 +131,7 @@ class Cards(WithPage):
         self.assertIn(
             '<img class="chart" src="data:image/png;base64," alt="Stresses', images
         )
-        self.assertIn('<img src="data:image/png;base64," alt="Vertical eff', images)
+        self.assertIn('<img src="data:image/png;base64," alt="Vertical stress', images)
         self.assertNotIn('alt="Forces"', images)  # the interactive curves have them
 
     def test_suction_beyond_which_a_method_ends(self) -> None:

@@ -236,7 +236,7 @@ def bar_in_words(run: Results, found: Installation) -> str:
     end = found.shown.length(float(f"{bounds.end:.4g}"))
     if found.depth[-1] <= bounds.end + 1e-2:
         return ""
-    return f"The error bar reaches to {end}; below, about its width there is shown."
+    return f"The error bar reaches to {end}."
 
 
 def in_range(
