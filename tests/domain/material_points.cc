@@ -144,6 +144,9 @@ check_point_options()
       set Initial stress   = uniform
       set Uniform stress   = -1, -2, -3, 4
       set Initial velocity = r - 2*z ; 0.5*z*pi
+      subsection Layer 1
+        set Law = linear elastic
+      end
     end
     )";
   double            sums[3];
