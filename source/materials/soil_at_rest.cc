@@ -153,5 +153,4 @@ namespace CaissonMPM
       }
     return result;
   }
-
 } // namespace CaissonMPM

@@ -133,8 +133,7 @@ namespace CaissonMPM
   };
 
   /** Throw RunFailure where a list, as of all entries, has not been printed as
-   * a
-   * whole; @p out has no buffer on the ranks that do not print. */
+   * a whole; @p out has no buffer on the ranks that do not print. */
   void
   finish_list(std::ostream &out);
 } // namespace CaissonMPM
