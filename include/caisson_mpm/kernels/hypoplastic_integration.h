@@ -129,10 +129,7 @@ namespace CaissonMPM
                        const LawState<Number>    &law_state,
                        const Parameters          &p)
         {
-          State<Number> state{{sigma.rr - p.shift,
-                               sigma.zz - p.shift,
-                               sigma.tt - p.shift,
-                               sigma.rz},
+          State<Number> state{Hypoplasticity::shifted(sigma, p),
                               law_state.void_ratio,
                               {}};
           if constexpr (remembers)

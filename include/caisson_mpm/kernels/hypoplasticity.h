@@ -177,11 +177,7 @@ namespace CaissonMPM
               const Number               void_ratio,
               const Parameters          &p)
         {
-          StressState<Number>        T{sigma.rr - p.shift,
-                                sigma.zz - p.shift,
-                                sigma.tt - p.shift,
-                                sigma.rz};
-          const Factors<Number>      f = factors(T, void_ratio, p);
+          const Factors<Number> f = factors(shifted(sigma, p), void_ratio, p);
           const StressState<Number> &s = f.s;
           // L^-1 : N = a / F (s + dev s - share s)
           const double third = 1. / 3., F = f.F[0], ss = product(s, s)[0],
@@ -227,6 +223,17 @@ namespace CaissonMPM
           if (!any(may_be))
             return may_be;
           return volume > room * (1. + loosest_void_ratio(pressure, p));
+        }
+
+        /** The stress with which the equations are evaluated. */
+        template <typename Number>
+        [[gnu::always_inline]] static inline StressState<Number>
+        shifted(const StressState<Number> &sigma, const Parameters &p)
+        {
+          return {sigma.rr - p.shift,
+                  sigma.zz - p.shift,
+                  sigma.tt - p.shift,
+                  sigma.rz};
         }
 
         /** The pressure of a shifted stress, at least p_t. */
@@ -480,10 +487,7 @@ namespace CaissonMPM
                                      const Number               void_ratio,
                                      const Parameters          &p)
       {
-        StressState<Number> T{stress.rr - p.shift,
-                              stress.zz - p.shift,
-                              stress.tt - p.shift,
-                              stress.rz};
+        StressState<Number> T = shifted(stress, p);
         hold_in_bounds(T, p);
         const Factors<Number> f    = factors(T, void_ratio, p);
         const Number          half = .5 * (f.s.rr - f.s.zz);
