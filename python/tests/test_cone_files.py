@@ -333,6 +333,19 @@ class Ags(WithFiles):
         self.refused(two, "2 tests: CPT01, CPT02; choose one by --location")
         self.assertEqual(self.read(two, "CPT02").resistance[0], 9e6)
 
+    def test_group_that_goes_on(self) -> None:
+        """A second group SCPT has the same headings and units, or is refused."""
+        begin = AGS.index('"GROUP","SCPT"')
+        more = AGS[begin:].replace('"0.50"', '"1.60"').replace('"1.00"', '"1.70"')
+        more = more.replace('"1.50"', '"1.80"')
+        self.assertEqual(len(self.read(f"{AGS}\n{more}").depth), 6)
+        for old, new, row in (
+            ('_RES","SCPT_FRES"', '_FRES","SCPT_RES"', "16: .* HEADING unlike .* 8"),
+            ("MN/m2", "kPa", "17: .* a row UNIT unlike that in row 9"),
+        ):
+            self.assertIn(old, more)
+            self.refused(f"{AGS}\n{more.replace(old, new)}", f"row {row}; divide it")
+
     def test_wrong_groups(self) -> None:
         self.refused(AGS.replace('"SCPT"', '"GEOL"'), "no group SCPT.* are PROJ, GEOL")
         self.refused(
@@ -397,6 +410,13 @@ class Gef(WithFiles):
         self.assertEqual(len(test.depth), 2 + 192 - 2)
         self.assertIn("number of cells, left out: 2, the first is", str(test.remarks))
 
+    def test_texts_at_the_ends_of_rows(self) -> None:
+        """Comments of the crew are no numbers in a column without a name."""
+        test = self.read(GEF.replace(";0.49;!", ";0.49;rain at noon!"))
+        np.testing.assert_allclose(test.resistance, [1e6, 4e6])
+        said = "ends of rows, not read: 1, the first is in row 14, 'rain at noon'"
+        self.assertIn(said, str(test.remarks))
+
     def test_decimal_commas(self) -> None:
         """In the table and in #COLUMNVOID; 0,99900 is the void 0.999."""
         table = GEF.replace("0.006", "0.99900").replace("-9999;", "3.0;")
@@ -417,6 +437,10 @@ class Gef(WithFiles):
         for last in ("-7", "1.47"):  # none, or in one row of three
             test = self.read(void.replace("1.47;!", f"{last};!"))
             np.testing.assert_allclose(test.depth, [0.5, 1.5])
+        heads, some = GEF.replace("4, -1", "5, -7"), "4.00;4.00;0.02;-1;3.97;!\n"
+        test = self.read(heads.replace("1.47;!", "-7;!") + some)  # in most rows
+        np.testing.assert_allclose(test.depth, [0.49, 1.5 - 0.0216666667, 3.97])
+        self.assertIn("from the penetration length: 1, those of nu", str(test.remarks))
 
     def test_area_ratio(self) -> None:
         for text in ("0.59", "0,59"):
@@ -503,6 +527,24 @@ class Bro(WithFiles):
         for z in ("1.5", "0.5", "0.62"):  # the length of the rods, and no depth
             archived = archived.replace(f"{z},{z},", f"{z},-999999,")
         np.testing.assert_allclose(self.read(archived).depth[-2:], [0.62, 1.5])
+
+    def test_friction_ratio(self) -> None:
+        """It stands for a sleeve friction without values, which each record has."""
+        void = -999999
+        for one, expected in ((void, 40e3), (9e-3, 9e3)):
+            rows = [
+                self.record(z, q, f, 0)
+                for z, q, f in ((1, 1, void), (2, 2, one), (3, 4, void))
+            ]
+            test = self.read(self.text(*rows).replace(f"{void};", "2;"))
+            assert test.friction is not None
+            np.testing.assert_allclose(test.friction[-3:], [20e3, expected, 80e3])
+            self.assertIn("from 'friction ratio', f_s = R_f q_c", str(test.remarks))
+
+    def test_hole_in_length_of_rods(self) -> None:
+        """The corrected depth of its first row may be some mm less."""
+        rows = [self.record(z, 4, 0.02, 0) for z in (0.599, 0.7, 0.8)]
+        self.assertEqual(self.read(self.text(*rows)).measured_from, 0.599)
 
     def test_refusals(self) -> None:
         good = self.text(self.record(0.6, 1, 0.01, 0), self.record(0.7, 1, 0.01, 0))

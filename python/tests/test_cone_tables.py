@@ -33,6 +33,24 @@ class Tables(WithFiles):
         for rows in ("0.5;712.5\n1;99\n", "0.5;712\n1;815.125\n"):
             self.assertEqual(self.read(f"depth_m;qc_kPa\n{rows}").remarks, ())
 
+    def test_columns_that_repeat(self) -> None:
+        """A column that is there twice counts once, where it has the same values."""
+        text = "depth_m,qc_MPa,Depth (m),Ic\n0.5,1,0.5,2\n1,4,1.0,2\n"
+        self.refused(text, "two columns are the depth, 'depth_m' and 'Depth .m.'; leav")
+        test = self.read(text.replace("1.0", "1"))
+        np.testing.assert_allclose(test.depth, [0.5, 1])
+        self.assertIn("were not read: Depth (m), Ic", str(test.remarks))
+
+    def test_other_names(self) -> None:
+        """Short ones, and those of one maker of cones."""
+        for head in ("u (MPa)", "Pore shoulder [MPa]"):
+            text = f"Depth (m),qc (MPa),Shaft friction (kPa),{head}\n"
+            test = self.read(text + "0.5,1,9,0.004\n1,4,9,0.009\n")
+            assert test.friction is not None and test.pore_pressure is not None
+            np.testing.assert_allclose(test.friction, 9e3)
+            np.testing.assert_allclose(test.pore_pressure, [4e3, 9e3])
+        self.refused("depth,qc\n0.5,1\n1,4\n", "known, but 'none'; write one of Pa, k")
+
     def test_friction_ratio(self) -> None:
         """It stands for a friction that is not there, in any format."""
         for head in (
@@ -250,6 +268,25 @@ class Workbooks(WithFiles):
         with self.assertRaisesRegex(InputError, "row 4 of sheet CPT 1: a formula"):
             cone_file.read(self.path, how=How(sheet="CPT 1"))
 
+    def test_a_row_in_each_cell(self) -> None:
+        """Text that was pasted into one column is divided as text."""
+        import openpyxl
+
+        book = openpyxl.Workbook()
+        for line in ("Job: 1", None, "Depth   qc   fs", "[m] [MPa] [MPa]"):
+            book.active.append([line])
+        for z in range(1, 9):
+            book.active.append([f"{z / 10:g}   {z}   0.0{z}"])
+        book.active["A9"] = "0.5  5  none"
+        book.save(self.path)
+        test = cone_file.read(self.path)
+        np.testing.assert_allclose(test.depth, np.arange(1, 9) / 10)
+        np.testing.assert_allclose(test.resistance, 1e6 * np.arange(1, 9))
+        book.active["A10"] = "0.6  six  0.06"
+        book.save(self.path)
+        with self.assertRaisesRegex(InputError, "row 10: 'six' is no number"):
+            cone_file.read(self.path)
+
     def test_far_cells_and_too_many(self) -> None:
         """A blank in the last cell is not read; what unpacks to very much, neither."""
         import openpyxl
@@ -374,6 +411,21 @@ class Rules(WithFiles):
         test = self.of(stiff)
         self.assertAlmostEqual(test.resistance[0], 0.9e6)
         self.assertIn("is that of clay; if readings were set to 0", test.remarks[0])
+
+    def test_cells_beside_their_heads(self) -> None:
+        """Where u_2 stands in the column of f_s, the cell of u_2 is another reading."""
+        rows = self.rows()
+        for row in rows[-5:]:
+            row[2:] = [-74, 3707]
+        test = self.of(rows)
+        assert test.pore_pressure is not None
+        self.assertLess(test.pore_pressure.max(), 50e3)
+        self.assertIn("the pore pressure of these rows, too", str(test.remarks))
+
+    def test_pore_pressure_in_another_unit(self) -> None:
+        rows = [[z, q, f, u / 1e3] for z, q, f, u in self.rows()]
+        said = "is 0.1 % of water at rest in the median; check the unit in the heads"
+        self.assertIn(said, str(self.of(rows).remarks))
 
     def test_friction_in_few_rows(self) -> None:
         """It says nothing of the others."""

@@ -281,7 +281,7 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
         values["qt" if "qt" in values else "qc"],
         values.get("fs"),
         values.get("u2"),
-        tuple(found.remarks),
+        tuple(dict.fromkeys(found.remarks)),
         table.facts.area_ratio,
         start,
         above,

@@ -28,7 +28,6 @@ from caisson.design.cone_words import LENGTH, NEEDED, QUANTITIES, unit_in
 
 BY_GEF = {quantity.gef: key for key, quantity in QUANTITIES.items()}
 BY_AGS = {q.ags: key for key, q in QUANTITIES.items() if q.ags}
-BY_BRO = {quantity.bro: key for key, quantity in QUANTITIES.items()}
 GEF_AREA_RATIO, GEF_PREDRILLED = 3, 13  # of #MEASUREMENTVAR
 LOCATION, PUSH, DEPTH = "LOCA_ID", "SCPG_TESN", QUANTITIES["depth"].ags
 MOST = 30  # names in a message
@@ -200,7 +199,7 @@ def gef(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
     wrong = [
         (row, f"{len(cells)} cells, and {number} columns in #COLUMNINFO")
         for row, cells in rows
-        if len(cells) < number or any(cells[number:])
+        if len(cells) < number or any(map(is_number, cells[number:]))
     ]
     if len(wrong) > FEW * len(rows):
         refuse(path, wrong)
@@ -218,6 +217,11 @@ def gef(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> Table:
         found.remarks.append(
             f"rows with another number of cells, left out: {len(wrong)}, the first is"
             f" row {row}: {why}"
+        )
+    if texts := [(row, cells[number:]) for row, cells in rows if any(cells[number:])]:
+        found.remarks.append(
+            f"texts at the ends of rows, not read: {len(texts)}, the first is in row"
+            f" {texts[0][0]}, {' '.join(texts[0][1])[:40]!r}"
         )
     return found
 
@@ -279,11 +283,14 @@ def ags_groups(path: Path, lines: Sequence[str]) -> dict[str, Rows]:
 
 
 def ags_row(path: Path, rows: Rows, name: str) -> tuple[int, list[str]]:
-    """Return the row HEADING or UNIT of a group. Raises InputError."""
-    for row, cells in rows:
-        if cells[0] == name:
-            return row, cells
-    raise InputError(f"{path}, row {rows[0][0]}: the group SCPT has no row {name}")
+    """Return the row HEADING or UNIT of a group, which is the same wherever the group
+    goes on. Raises InputError."""
+    found = [(row, cells) for row, cells in rows if cells[0] == name]
+    if not found:
+        raise InputError(f"{path}, row {rows[0][0]}: the group SCPT has no row {name}")
+    why = f"the group SCPT has a row {name} unlike that in row {found[0][0]}; divide it"
+    refuse(path, [(row, why) for row, cells in found if cells != found[0][1]])
+    return found[0]
 
 
 def ags_ratio(groups: Mapping[str, Rows], keys: set) -> tuple[float | None, list[str]]:
@@ -438,14 +445,8 @@ def bro(path: Path, lines: Sequence[str], wanted: Sequence[str], where: str) -> 
     test = tests[chosen_of(path, every, where, every[0])]
     rows = bro_records(path, test)
     heads = [
-        Head(
-            place,
-            QUANTITIES[key].name,
-            key,
-            QUANTITIES[key].usual.replace("kPa", "MPa"),
-            1,
-        )
-        for place, key in BY_BRO.items()
+        Head(q.bro, q.name, key, q.usual.replace("kPa", "MPa"), 1)
+        for key, q in QUANTITIES.items()
     ]
     found = table_of(path, heads, rows, wanted, "the standard", "record 4 of 25 is q_c")
     found.facts = Facts(

@@ -104,6 +104,13 @@ def rows_of(sheet: Any, path: Path) -> Rows:
             )
         if cells:
             found.append((row, cells))
+    if found and all(len(cells) == 1 for _, cells in found):  # as lines of a text
+        lines = [""] * found[-1][0]
+        for row, cells in found:
+            lines[row - 1] = cells[0]
+        grid = grid_of_text(lines)[0]
+        if sum(numeric(cells) > 0 for _, cells in grid) > len(grid) / 2:
+            return grid
     return found
 
 

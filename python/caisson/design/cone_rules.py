@@ -29,6 +29,7 @@ RANGES = {
 WEAKEST = 20e3  # Pa; the largest resistance of a test is more
 WEAK = 200e3  # Pa; less is doubtful
 THOUSANDS = re.compile(r"[1-9]\d{0,2}([.,])\d{3}")  # 1,424 for 1424
+DRY = 0.01  # u_2 / u_0; the median of a test under water is more
 SMOOTHEST = 2e-4  # f_s / q_c; the median of a test is more
 START = 0.5  # m; a first row that is deeper leaves soil of which nothing is known
 FIRST = 0.5  # m of readings that tell of the soil above them
@@ -47,6 +48,7 @@ ENOUGH = 0.2  # of the rows must have a friction or a pressure
 REPEATED, BACK = 0.02, 0.05  # of the rows that may go back, and how far (m)
 WIDEST_STEP = 0.1  # m of a test that begins at the mudline
 GIVEN, ASSUMED = "GIVEN", "ASSUMED"  # how the soil above the first row is known
+EDGE = 0.005  # m; a corrected depth may be less than the length, a hole's depth
 DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
 
 
@@ -130,12 +132,21 @@ class Readings:
         assert depth is not None
         if rods is not None and "depth" in self.values:
             far = np.abs(depth - rods) > DISAGREE + 0.1 * np.abs(rods)
-            if np.mean(far[np.isfinite(depth + rods)]) > 0.5:
+            both = np.isfinite(depth + rods)
+            if both.any() and np.mean(far[both]) > 0.5:
                 self.remarks.append(
                     f"the column {self.table.columns['depth'].text!r} is no depth of"
                     " this test; the penetration length is taken"
                 )
                 depth = rods
+            elif (short := np.isnan(depth) & np.isfinite(rods)).any() and both.any():
+                order = np.flatnonzero(both)[np.argsort(rods[both])]
+                shift = np.interp(rods, rods[order], (depth - rods)[order])
+                depth = np.where(short, rods + shift, depth)
+                self.remarks.append(
+                    "rows without a corrected depth, which follows from the"
+                    f" penetration length: {rows_text(self.row[short])}"
+                )
         self.values["depth"] = depth
         empty = np.isnan(depth) | np.isnan(self.values[self.tip])
         self.leave_out(empty, "rows without a depth or a cone resistance")
@@ -171,11 +182,14 @@ class Readings:
 
     def make_friction(self) -> None:
         """Take the sleeve friction from the friction ratio where there is none."""
-        ratio = self.values.pop("rf", None)
-        if ratio is not None and "fs" not in self.values and np.isfinite(ratio).any():
-            self.values["fs"] = ratio * np.maximum(self.values[self.tip], 0.0)
-            text = self.table.columns["rf"].text
-            self.remarks.append(f"sleeve friction: from {text!r}, f_s = R_f q_c / 100")
+        ratio = self.values.pop("rf", np.full(len(self.row), np.nan))
+        friction = self.values.get("fs", np.full(len(self.row), np.nan))
+        rows = np.isnan(friction) & np.isfinite(ratio)
+        if rows.any():
+            tip = np.maximum(self.values[self.tip], 0.0)
+            self.values["fs"] = np.where(rows, ratio * tip, friction)
+            text = f"{self.table.columns['rf'].text!r}, f_s = R_f q_c / 100"
+            self.remarks.append(f"sleeve friction: from {text}, in {rows.sum()} rows")
 
     def join_pushes(self) -> None:
         """Put the pushes of a borehole below each other, without the rows in which the
@@ -226,7 +240,7 @@ class Readings:
                 f"{self.path}: the file says that the hole above the test is {hole:g} m"
                 f" deep, and the last row is at {deepest:g} m: correct one of the two"
             )
-        above = self.values["depth"] < hole - 1e-6
+        above = self.values["depth"] < hole - EDGE
         self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
 
     def leave_out_values(self) -> None:
@@ -234,10 +248,10 @@ class Readings:
         they are few, as at the end where the rods are pulled; not their rows."""
         for name in (x for x in ("fs", "u2") if x in self.values):
             values, (low, high) = self.values[name], RANGES[name]
-            wrong = (values < low) | (values > high)
+            wrong = beyond = (values < low) | (values > high)
             if name == "fs":  # in soil, which the cone resistance shows
                 tip = self.values[self.tip]
-                wrong |= (values > tip) & (tip > WEAK)
+                wrong = beyond | (values > tip) & (tip > WEAK)
             if 0 < wrong.sum() <= FEW * len(wrong):
                 some = values[wrong] / 1e3
                 self.remarks.append(
@@ -246,6 +260,10 @@ class Readings:
                     f" {rows_text(self.row[wrong])}"
                 )
                 self.values[name] = np.where(wrong, np.nan, values)
+                if name == "fs" and "u2" in self.values and beyond.any():
+                    # as where the cells of a row stand one column beside their heads
+                    self.values["u2"] = np.where(beyond, np.nan, self.values["u2"])
+                    self.remarks[-1] += "; the pore pressure of these rows, too"
 
     def leave_out_no_load(self) -> None:
         """Leave out the rows in which the cone met no soil: a resistance of less than 0
@@ -308,21 +326,17 @@ class Readings:
             " a file of two tests",
         )
 
-    def out_of_range(self, name: str, value: float) -> str:
-        """Return the refusal of a value (Pa)."""
-        low, high = RANGES[name]
-        return (
-            f"the {QUANTITIES[name].name} is {value / 1e6:g} MPa, which is not between"
-            f" {low / 1e6:g} and {high / 1e6:g} MPa; check the unit in"
-            f" {self.table.units_are}"
-        )
-
     def check_ranges(self) -> None:
         """Refuse stresses that cannot be meant."""
         for name, (low, high) in RANGES.items():
             values = self.values.get(name, np.zeros(0))
             wrong = (values < low) | (values > high)
-            self.refuse(wrong, lambda i: self.out_of_range(name, values[i]))
+            self.refuse(
+                wrong,
+                lambda i: f"the {QUANTITIES[name].name} is {values[i] / 1e6:g} MPa,"
+                f" which is not between {low / 1e6:g} and {high / 1e6:g} MPa; check the"
+                f" unit in {self.table.units_are}",
+            )
 
     def complete_friction(self) -> None:
         """Take a drift below 0 as 0, and where there is none the share of q_c of the
@@ -372,6 +386,12 @@ class Readings:
             return
         depth, pressure = self.values["depth"], self.values["u2"]
         missing = np.isnan(pressure)
+        ratio = np.abs(pressure[~missing]) / (WATER * np.maximum(depth[~missing], 0.1))
+        if np.median(ratio) < DRY:
+            self.remarks.append(
+                f"the pore pressure is {100 * np.median(ratio):.1g} % of water at rest"
+                f" in the median; check the unit in {self.table.units_are}"
+            )
         if missing.any():
             self.values["u2"] = np.where(missing, WATER * depth, pressure)
             self.remarks.append(

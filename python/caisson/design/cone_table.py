@@ -14,7 +14,7 @@ from caisson.design.cone_words import unit_in
 
 EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))
 # what programs write where nothing was measured; no cone measures it in any unit
-STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2, bar, kgf/cm2, tsf, ksf and psi"
+STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2, bar, kgf/cm2, tsf, ksf or psi"
 VOIDS = frozenset((-999.0, -999.25, -9999.0, -99999.0, -999999.0, -32768.0))
 COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
 Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its cells
@@ -115,10 +115,10 @@ def unit_of(path: Path, head: Head) -> float:
     quantity = QUANTITIES[head.quantity]
     word = unit_in(head.unit)
     if word not in quantity.units:
-        known = "m, cm, mm and ft" if quantity.units is LENGTH else STRESSES
+        known = "m, cm, mm or ft" if quantity.units is LENGTH else STRESSES
         raise InputError(
             f"{path}, row {head.row}: the column {head.text!r}, the {quantity.name},"
-            f" has no unit that is known, but {head.unit or 'none'!r}; known are"
+            f" has no unit that is known, but {head.unit or 'none'!r}; write one of"
             f" {known}"
         )
     return quantity.units[word]
@@ -142,7 +142,10 @@ def columns_of(
         metric = [head for head in known if unit_in(head.unit) not in CUSTOMARY]
         some = metric or known or some
         if name == "rf":  # only where it is needed, and can be read
-            some = [] if "fs" in found else known[:1]
+            is_needed = "fs" not in found or not is_filled(rows, found["fs"].place)
+            some = known[:1] if is_needed else []
+        if len({(unit_in(h.unit), *column_cells(rows, h.place)) for h in some}) == 1:
+            some = some[:1]  # the same twice, as beside results
         if len(some) > 1:
             raise InputError(
                 f"{path}, row {some[1].row}: two columns are the"
@@ -165,10 +168,14 @@ def columns_of(
     return found
 
 
+def column_cells(rows: Rows, place: int) -> list[str]:
+    """Return the texts of a column."""
+    return [cell_of(cells, place) for _, cells in rows]
+
+
 def is_filled(rows: Rows, place: int) -> bool:
     """Return whether a column has values in most rows."""
-    some = sum(is_number(cell_of(cells, place)) for _, cells in rows)
-    return some > len(rows) / 2
+    return sum(map(is_number, column_cells(rows, place))) > len(rows) / 2
 
 
 def table_of(
