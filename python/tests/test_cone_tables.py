@@ -443,13 +443,13 @@ class Rules(WithFiles):
         test = self.of([row for row in rows for _ in range(2)][::-1])
         np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
         self.assertIn("the deepest row comes first", str(test.remarks))
-        self.assertIn("the row before, left out: 200, ", str(test.remarks))
+        self.assertIn("a row before, left out: 200, ", str(test.remarks))
         test = self.of([[-z, *rest] for z, *rest in rows])
         np.testing.assert_allclose(test.depth, [z for z, *_ in rows])
         self.assertIn("negative downward: taken by their amount", str(test.remarks))
         rows[50][0] = rows[49][0]
         self.assertIn(
-            "repeat the depth of the row before, left out: 1, ",
+            "repeat the depth of a row before, left out: 1, ",
             str(self.of(rows).remarks),
         )
         rows[50][0] -= 1

@@ -18,14 +18,8 @@ from caisson.terminal import printable
 from caisson.design.cone_options import EXAMPLE
 from caisson.design.cone_table import Facts, Head, Rows, Table, cell_of
 from caisson.design.cone_table import is_number, refuse, table_of
-from caisson.design.cone_words import (
-    EVERY_UNIT,
-    QUANTITIES,
-    fact_of,
-    head_of,
-    is_level,
-    unit_in,
-)
+from caisson.design.cone_words import EVERY_UNIT, QUANTITIES
+from caisson.design.cone_words import fact_of, head_of, is_level, unit_in
 
 DIVIDERS = (";", "\t", ",", None)  # None: blanks
 SAMPLE = 400  # lines that tell what divides cells

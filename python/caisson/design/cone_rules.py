@@ -309,22 +309,16 @@ class Readings:
         """Leave out rows that repeat the depth of the row before, and few that go
         back, and refuse others."""
         depth = self.values["depth"]
-        above = np.maximum.accumulate(depth)
-        same = np.concatenate([[False], depth[1:] == above[:-1]])
-        self.leave_out(same, "rows that repeat the depth of the row before")
-        depth = self.values["depth"]
-        above = np.maximum.accumulate(depth)
-        back = np.concatenate([[False], depth[1:] <= above[:-1]])
-        few = back.sum() <= REPEATED * len(depth)
-        if few and (depth[1:] >= above[:-1] - BACK)[back[1:]].all():
-            self.leave_out(back, "rows that repeat a depth")
-            return
+        above = np.concatenate([[-1.0], np.maximum.accumulate(depth)[:-1]])
+        back = depth < above
+        few = back.sum() <= REPEATED * (depth != above).sum()
         self.refuse(
-            back,
+            back & ~(few and (depth >= above - BACK).all()),
             lambda i: f"the depth of {depth[i]:g} m is not below that of the row"
-            f" before, {above[i - 1]:g} m; leave out the row that is wrong, or divide"
+            f" before, {above[i]:g} m; leave out the row that is wrong, or divide"
             " a file of two tests",
         )
+        self.leave_out(depth <= above, "rows that repeat the depth of a row before")
 
     def check_ranges(self) -> None:
         """Refuse stresses that cannot be meant."""

@@ -158,13 +158,10 @@ def columns_of(
             )
         for head in some:
             found[head.quantity] = Column(head.place, unit_of(path, head), head.text)
-    if "depth" in found:  # the length of the rods checks a corrected depth
-        for head in heads:
-            if (
-                head.quantity == "rods"
-                and unit_in(head.unit) in QUANTITIES["rods"].units
-            ):
-                found["rods"] = Column(head.place, unit_of(path, head), head.text)
+    for head in heads:  # the length of the rods checks a corrected depth
+        is_known = head.quantity == "rods" and unit_in(head.unit) in LENGTH
+        if is_known and "depth" in found:
+            found["rods"] = Column(head.place, unit_of(path, head), head.text)
     return found
 
 

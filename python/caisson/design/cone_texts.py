@@ -9,27 +9,11 @@ import numpy as np
 
 from caisson.table import markdown, write_csv
 from caisson.terminal import printable
-from caisson.design.cone_estimates import (
-    CAN,
-    CLAY_RATIOS,
-    ENDS,
-    INDEX,
-    K0,
-    REFERENCE,
-    RESISTANCE,
-    WEIGHT,
-    Estimate,
-    Estimates,
-)
+from caisson.design.cone_estimates import CAN, CLAY_RATIOS, ENDS, Estimate, Estimates
+from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
-from caisson.design.correlations import (
-    ANGLE,
-    DENSITY,
-    EVERY,
-    MODULUS,
-    STRENGTH,
-)
+from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
 from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation

@@ -116,23 +116,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def check(file: Path, test: Test, options: argparse.Namespace) -> None:
     """Refuse what the options leave open or cannot mean. Raises InputError."""
+    weight = options.unit_weight
     if test.friction is None:
-        missing = [
-            word
-            for word, value in (
-                ("--soil sand", options.soil or None),
-                ("--unit-weight 19", options.unit_weight),
-            )
-            if value is None
-        ]
-        if missing:
+        needed = {"--soil sand": options.soil or None, "--unit-weight 19": weight}
+        if missing := [word for word, value in needed.items() if value is None]:
             raise InputError(
                 f"{file} has no sleeve friction (fs_kPa), from which the kind of soil"
                 f" and its unit weight follow; give it, or {' and '.join(missing)}"
             )
         if "robertson-2009" in options.correlation:
             raise InputError(f"robertson-2009 needs a sleeve friction, not in {file}")
-    weight = options.unit_weight
     if weight is not None and not WATER < 1e3 * weight < 25e3:
         raise InputError(
             f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
