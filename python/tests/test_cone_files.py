@@ -471,6 +471,12 @@ class Gef(WithFiles):
         self.refused(GEF.replace("2, MPa", "2, GPa"), "row 5: the column .* 'GPa'")
         self.refused(GEF.replace("2, MPa", "2, kPa"), "row 14: .* units in #COLUMNINFO")
 
+    def test_no_resistance(self) -> None:
+        """The resistance is named, and not the friction, which is 0 as well."""
+        rows = [f"{0.1 * i:g},0,0" for i in range(1, 41)]
+        table = "\n".join(["depth_m,qc_MPa,fs_kPa", *rows])
+        self.refused(table, "the cone resistance is 0 in most rows")
+
     def test_wrong_rows(self) -> None:
         for old, new, words in (
             ("1.00;-9999;", "1.00;", "row 15: 4 cells, and 5 columns"),

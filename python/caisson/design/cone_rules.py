@@ -321,6 +321,11 @@ class Readings:
 
     def check_ranges(self) -> None:
         """Refuse stresses that cannot be meant."""
+        if not np.median(self.values[self.tip]) > 0:
+            raise InputError(
+                f"{self.path}: the cone resistance is 0 in most rows; check which"
+                f" column it is, and the unit in {self.table.units_are}"
+            )
         for name, (low, high) in RANGES.items():
             values = self.values.get(name, np.zeros(0))
             wrong = (values < low) | (values > high)
