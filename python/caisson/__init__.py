@@ -49,7 +49,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from caisson.api import run
     from caisson.frame import Frame
-    from caisson.loaded import LoadedRun, load
+    from caisson.verdict.loaded import LoadedRun, load
     from caisson.results import ResultsError
     from caisson.runner import RunError
 
@@ -62,8 +62,8 @@ __all__ = ["Frame", "LoadedRun", "ResultsError", "RunError", "load", "run"]
 MODULES = {
     "run": "caisson.api",
     "Frame": "caisson.frame",
-    "LoadedRun": "caisson.loaded",
-    "load": "caisson.loaded",
+    "LoadedRun": "caisson.verdict.loaded",
+    "load": "caisson.verdict.loaded",
     "ResultsError": "caisson.results",
     "RunError": "caisson.runner",
 }

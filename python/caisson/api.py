@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from caisson import ranks as cores
-from caisson.loaded import LoadedRun, load
+from caisson.verdict.loaded import LoadedRun, load
 from caisson.paths import PROGRAM, scene_or_study
 from caisson.runner import Entries, Run, RunError
 

@@ -21,6 +21,14 @@ WITH_WATER = "total_force_with_water_N"
 FROM = 1.0  # m, of roughness: the start is left out
 
 
+def penetration(history: Table) -> np.ndarray | None:
+    """Return the penetration of each row, or None where it does not change."""
+    depth = history.get("penetration_m")
+    if depth is None or not np.all(np.isfinite(depth)) or np.ptp(depth) < 1e-9:
+        return None
+    return depth
+
+
 def window_of(way: float) -> float:
     """Return the width of the window on a way of this length (m): a quarter of a short
     one."""

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What came out of a run: the numbers at depths, the largest force, the margins and the
-largest pull.
+"""Numbers of a run: those of its ways down and up at depths, where suction acts, and
+the largest pull. verdict/outcome.py has what came out of a run.
 
 All of them follow from history.csv. They are means of curves.smoothed_at(), except the
 largest pull: that is the largest median over neighboring rows of a way up.
 """
-import functools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -91,14 +90,6 @@ def way_of(run: Results, rows: np.ndarray) -> Way:
     return Way(depth, columns)
 
 
-def feasible(run: Results, way: Way) -> Way:
-    """Return a way down to where suction ends, as the verdict in run.json has it."""
-    rows = way.depth <= (run.feasible_to or np.inf)
-    if rows.sum() < 2:
-        return way
-    return Way(way.depth[rows], {k: x[rows] for k, x in way.columns.items()})
-
-
 def way_down(run: Results) -> Way:
     """Return the way down without the row where it begins."""
     return way_of(run, curves.way_down(run.history[DEPTH])[1:])
@@ -158,64 +149,17 @@ def pump_limit(run: Results) -> float | None:
         return None
 
 
-def margins_of(run: Results, way: Way) -> dict[str, Any]:
-    """Return the least margins to piping, boiling and the largest suction of the pump,
-    as shares of 1, and the least room below the lid (m)."""
-    required = np.maximum(way.columns[SUCTION], 0)
-
-    def margin(ratio: np.ndarray) -> dict[str, float]:
-        most, depth = way.largest(ratio)
-        return {"least": 1 - most, DEPTH: depth}
-
-    found: dict[str, Any] = {}
-    if GRADIENT in way.columns:
-        found["piping"] = margin(way.columns[GRADIENT])
-    if (boils := way.columns.get(BOILING)) is not None:
-        share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
-        found["boiling"] = margin(share)
-    if limit := pump_limit(run):
-        found["pump"] = margin(required / (1e3 * limit))
-    if ROOM in way.columns:
-        found[ROOM] = -way.largest(-way.columns[ROOM])[0]
-    return found
+def is_sealed(run: Results) -> bool:
+    """Return whether no pump takes water from beneath the lid."""
+    return "lid_water_balance" in run.history
 
 
-def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
-    """Return the results of a way down; maxima and margins of what is feasible."""
-    deepest, way = float(way.depth[-1]), feasible(run, way)
-
-    def largest(name: str) -> dict[str, float]:
-        most, depth = way.largest(way.columns[name])
-        return {name: most, DEPTH: depth}
-
-    total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
-    found: dict[str, Any] = {DEPTH: deepest, "largest_force": largest(total)}
-    if SUCTION in way.columns:
-        if (rest := rest_of_run(run.history)) is not None:
-            found["rest_penetration_m"] = rest
-        found["largest_suction"] = largest(SUCTION)
-        found["margins"] = margins_of(run, way)
-    return found | {"at_depths": rows_of(at_depths(run))}
-
-
-@functools.lru_cache(maxsize=16)
-def results_of(run: Results) -> dict[str, Any]:
-    """Return the results of a run, by names that the manual lists
-    (doc/how_to/results.md); empty of a run without forces."""
-    history = run.history
-    if TOTAL not in history:
-        return {}
-    found: dict[str, Any] = {}
-    if len((way := way_down(run)).depth) > 1:
-        found = results_of_way_down(run, way)
-    if pull := largest_pull(history):
-        found["largest_pull"] = pull
-    up = way_of(run, curves.way_up(history[DEPTH])[1:])
-    if len(up.depth) > 1 and np.ptp(up.depth) > LEAST_RISE:
-        at = -multiples_of(-up.depth)
-        means = {name: up.mean(name, at) for name in up.columns}
-        found["at_depths_up"] = rows_of({DEPTH: at, **means})
-    return found
+def is_pull(run: Results) -> bool:
+    """Return whether a run is about the pull: whether the body ends higher than it
+    began, or rises with a sealed lid, as in cycles."""
+    depth = run.history.get("penetration_m", np.zeros(1))
+    rises = bool((np.diff(depth) < 0).any())
+    return bool(depth[-1] < depth[0]) or (is_sealed(run) and rises)
 
 
 def medians(pull: np.ndarray) -> np.ndarray:

@@ -181,12 +181,6 @@ class Results:
         return self.known.get("scene") or {}
 
     @property
-    def feasible_to(self) -> float | None:
-        """The depth where suction ends (m), by the verdict in run.json; None without
-        one, or where suction does not end."""
-        return self.known.get("feasible_to_m")
-
-    @property
     def shown(self) -> Units:
         """The units in which pages and pictures show forces, stresses and lengths."""
         return units_of(self.history, self.scene)

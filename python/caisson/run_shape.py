@@ -17,8 +17,7 @@ RESULTS: dict[str, Any] = {"warnings": [{"rank": str, "text": str}]}
 RUN: dict[str, Any] = {
     **dict.fromkeys(("version", "dealii_version", "scene_file", "title"), str),
     **dict.fromkeys(("command", "written", "status", "failure", "installation"), str),
-    **dict.fromkeys(("fingerprint", "time_step_limit", "verdict"), str),
-    "feasible_to_m": NUMBER,
+    **dict.fromkeys(("fingerprint", "time_step_limit"), str),
     **dict.fromkeys(("entries", "units", "defaults"), TEXTS),
     **dict.fromkeys(("assumed", "warnings"), [str]),
     **dict.fromkeys(("energies", "progress"), {ANY: OR_NONE}),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.plot import theory
+from caisson.verdict import theory
 from caisson.results import Read
 from caisson.design.cone import Profile
 

@@ -16,7 +16,7 @@ from caisson.design import assumed, density
 from caisson.design.assumed_cone import AssumedCone, Sand, SandGround
 from caisson.design.houlsby_byrne import Assumptions
 from caisson.disk import InputError
-from caisson.plot import theory
+from caisson.verdict import theory
 from caisson.results import Results
 
 

@@ -13,8 +13,9 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import plot
-from caisson.plot import limits
-from caisson.report import installation, verdict
+from caisson.verdict import end, limits
+from caisson.report import verdict
+from caisson.verdict import installation
 from caisson.results import Results
 
 SAND = SCENE["layers"][0]
@@ -58,7 +59,7 @@ class Governing(WithPage):
         text = html.unescape(re.sub("<[^>]*>", " ", page.split("<script")[0]))
         self.assertRegex(text, rf"governed by[^0-9]*{re.escape(name)}")
         verdict.keep(run)
-        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        known = json.loads((self.path / "verdict.json").read_text(encoding="utf-8"))
         self.assertEqual(known["limits"][-1]["governed_by"], name)
         self.assertAlmostEqual(known["limits"][-1]["penetration_m"], depth, places=6)
         colors = [limit.color for limit in limits.LIMITS.values()]
@@ -107,7 +108,7 @@ class Governing(WithPage):
         self.assertIn(f"({words})", verdict.verdict_of(run).text)
         page = (self.path / "report.html").read_text(encoding="utf-8")
         self.assertGreaterEqual(page.split("<script")[0].count(below), 4)
-        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        known = json.loads((self.path / "verdict.json").read_text(encoding="utf-8"))
         self.assertEqual(known["limits"][-1]["soft_layer_top_m"], 3)
         found = self.installation(run)
         self.assertIn(below, found.governing_in_words(2))
@@ -120,7 +121,7 @@ class Governing(WithPage):
         at = np.array([2.36, 2.5])
         found = installation.installation_of(run, installation.Rate(), at)
         assert found is not None
-        ended = verdict.end_of_suction(run, found)
+        ended = end.end_of_suction(run, found)
         self.assertEqual(ended, (2.36, limits.PUMP))
 
     def test_lift(self) -> None:

@@ -12,8 +12,9 @@ import caisson.report as report
 from caisson.design import reasons
 from caisson.design.method import Forces
 from caisson.design.reasons import ByCone
-from caisson.plot import limits
-from caisson.report import installation, remedies, verdict
+from caisson.verdict import limits
+from caisson.report import remedies, verdict
+from caisson.verdict import installation
 from caisson.report.remedies import Planned, Sizes
 from caisson.results import Results
 

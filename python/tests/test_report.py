@@ -21,8 +21,9 @@ import caisson.report as report
 from caisson.results import Results, ResultsError
 from caisson.design import reasons
 from caisson.design.seepage import senders_randolph
-from caisson.plot import limits
-from caisson.report import content, installation, methods
+from caisson.verdict import limits
+from caisson.report import content, methods
+from caisson.verdict import installation
 
 BROWSER = report.find_browser()
 SCENE: dict[str, Any] = {

@@ -12,9 +12,10 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import error_bounds
-from caisson.plot import limits
+from caisson.verdict import limits
 from caisson.results import Results
-from caisson.report import content, installation, layers, methods, sketch
+from caisson.report import content, layers, methods, sketch
+from caisson.verdict import installation
 from caisson.report import page as page_module
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from made_up_state import Temporary
 
 from caisson import __main__ as program
-from caisson.loaded import load
+from caisson.verdict.loaded import load
 from caisson.results import ResultsError, read_table
 from caisson.export.springs import Springs, last_motion, springs_of, wave_velocity
 

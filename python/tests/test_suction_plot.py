@@ -14,8 +14,9 @@ from synthetic import write_columns, write_run
 from test_suction_design import CRITICAL_SUCTIONS
 
 from caisson import evaluation, plot
-from caisson.plot import design, limits, suction, theory
-from caisson.plot import suction_methods as methods
+from caisson.plot import suction
+from caisson.verdict import design, limits, theory
+from caisson.verdict import suction_methods as methods
 from caisson.results import Results
 from caisson.design import seepage, senders_randolph
 from caisson.design import suction_installation as installation

@@ -6,12 +6,13 @@ import re
 import unittest
 from typing import Any
 
-from synthetic import DESIGN, write_columns
+from synthetic import write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import evaluation
-from caisson.report import content, installation, page, verdict
+from caisson.report import cards, content, page, verdict
+from caisson.verdict import installation, outcome
 from caisson.results import Results
 
 PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
@@ -133,7 +134,7 @@ class Verdicts(WithPage):
         """Where resistance only builds up, the weight has not pushed anything in."""
         run = self.run_of()
         begin = float(run.history[evaluation.DEPTH][0])
-        near, far = (installation.rest_in_words(run, begin + w) for w in (0.01, 0.5))
+        near, far = (cards.rest_in_words(run, begin + w) for w in (0.01, 0.5))
         place = run.shown.depth(begin)
         self.assertEqual(near, f"at most {place}, where the run begins")
         self.assertEqual(far, run.shown.depth(begin + 0.5))
@@ -166,27 +167,34 @@ class Verdicts(WithPage):
         parts = "tip 2.25 MN, friction inside 1.13 MN, outside 1.13 MN."
         self.assertEqual(text, f"Jacked to 4.5 m: 4.5 MN, of which {parts}")
 
-    def test_kept_in_run_json(self) -> None:
-        """With all other keys, and only once."""
+    def test_kept(self) -> None:
+        """In a file of its own: run.json is that of the program, and what came out of
+        the run is the same before and after."""
         run = self.run_of()
+        before = (self.path / "run.json").read_bytes()
         for _ in range(2):
             text = verdict.keep(run)
-        known = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual((self.path / "run.json").read_bytes(), before)
+        known = json.loads((self.path / "verdict.json").read_text(encoding="utf-8"))
         self.assertEqual(known.pop("verdict"), text)
         rows = known.pop("limits")
-        self.assertEqual(known.pop("defaults"), DESIGN)
-        self.assertEqual(known, SUMMARY)
+        self.assertEqual(known, {})
         last = rows[-1]
         self.assertEqual((last["penetration_m"], last["factor"]), (4.5, 1.0))
         self.assertEqual(last["governed_by"], "piping, Houlsby & Byrne")
         self.assertAlmostEqual(last["required_suction_Pa"], 30e3, delta=50)
         self.assertAlmostEqual(last["required_suction_Pa"] / 0.57, 52.6e3, delta=500)
         self.assertAlmostEqual(last["allowable_suction_Pa"], 52.6e3, delta=500)
-        self.assertEqual(Results(self.path).summary["verdict"], text)
-        verdict.keep(self.run_of(entries=PUMP))
-        self.assertEqual(Results(self.path).summary["feasible_to_m"], 3.5)
-        self.assertEqual(Results(self.path).feasible_to, 3.5)
-        most = evaluation.results_of(Results(self.path))["largest_suction"]
+
+    def test_outcome_before_a_report(self) -> None:
+        """Nothing below it is in a maximum, whether a report was made or not."""
+        self.run_of(entries=PUMP)
+        before = outcome.results_of(Results(self.path))
+        verdict.keep(Results(self.path))
+        known = json.loads((self.path / "verdict.json").read_text(encoding="utf-8"))
+        self.assertEqual(known["feasible_to_m"], 3.5)
+        self.assertEqual(outcome.results_of(Results(self.path)), before)
+        most = before["largest_suction"]
         self.assertAlmostEqual(most["required_suction_Pa"], 20e3, delta=50)
 
 

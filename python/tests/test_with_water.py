@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from caisson import curves
-from caisson.plot import design
+from caisson.verdict import design
 
 
 class WithWater(unittest.TestCase):

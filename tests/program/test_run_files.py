@@ -16,11 +16,13 @@ from program import (
     summary,
 )
 
-from caisson import error_bounds, evaluation
-from caisson.plot import design
+from caisson import error_bounds
+from caisson.verdict import design
 from caisson.design.reasons import text_of
-from caisson.report import installation, verdict
+from caisson.report import verdict
+from caisson.verdict import installation
 from caisson.report import page as page_module
+from caisson.verdict import outcome
 
 
 class Files(ProgramTest):
@@ -91,7 +93,7 @@ class Files(ProgramTest):
         )
         error_bounds.adopt(path, path / "error.csv")
         run = Results(path)
-        rows = evaluation.results_of(run)["at_depths"]
+        rows = outcome.results_of(run)["at_depths"]
         known = {round(row["penetration_m"], 6): row for row in rows}
         self.assertEqual([*known], [0.6, 0.7, 0.75])
         page = page_module.html(run, installation.Rate())

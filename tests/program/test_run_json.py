@@ -22,7 +22,8 @@ from program import (
 )
 
 from caisson import evaluation
-from caisson.plot import limits
+from caisson.verdict import limits
+from caisson.verdict import outcome
 
 SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
 SMALL: Entries = {
@@ -79,7 +80,7 @@ class Schema(ProgramTest):
         self.assertEqual(found["assumed"], ["Soil/Layer 1/Poisson ratio"])
         self.assertEqual(found["defaults"]["Rigid body/Tip"], "triangular")
         run = Results(path)
-        results, table = evaluation.results_of(run), evaluation.at_depths(run)
+        results, table = outcome.results_of(run), evaluation.at_depths(run)
         last = results["at_depths"][-1]
         self.assertAlmostEqual(last["penetration_m"], 1.3, places=6)
         room = 2 - 1.3 - last["plug_heave_m"]
@@ -129,7 +130,7 @@ class Schema(ProgramTest):
         self.assertEqual(errors_of(found), [])
         pump = {"required_suction_Pa", "pumped_volume_m3", "gas_expansion_m3"}
         self.assertFalse(pump & set(rows[0]))
-        results = evaluation.results_of(Results(path))
+        results = outcome.results_of(Results(path))
         self.assertFalse({"largest_suction", "margins"} & set(results))
         name = "total_force_with_water_N"
         largest = results["largest_force"][name]
@@ -155,7 +156,7 @@ class Schema(ProgramTest):
         self.run_scene("compaction", path)
         found = summary(path)
         self.assertEqual(errors_of(found), [])
-        self.assertEqual(evaluation.results_of(Results(path)), {})
+        self.assertEqual(outcome.results_of(Results(path)), {})
         self.assertNotIn("tip_force_N", history(path)[0])
 
     def test_the_schema_refuses(self) -> None:

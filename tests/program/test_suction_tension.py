@@ -15,8 +15,8 @@ from program import (
     Rows,
     history,
 )
+from caisson.verdict import outcome
 
-from caisson import evaluation
 
 LIMIT = "Rigid body/Largest Mach number"
 MASS = "Time/Mass scaling"
@@ -143,7 +143,7 @@ class SealedLid(ProgramTest):
             END: 0.99,
         }
         self.run_scene("jack", sealed, entries=entries)
-        most = evaluation.results_of(Results(sealed))["largest_pull"]
+        most = outcome.results_of(Results(sealed))["largest_pull"]
         self.assertEqual(most["mechanism"], "drained: friction on both walls")
         entries |= {"Water/Level": "drained", "Water/Suction control": "automatic"}
         self.run_scene("jack", drained, entries=entries)
@@ -169,7 +169,7 @@ class SealedLid(ProgramTest):
             "Rigid body/Velocity": -0.02,
         }
         self.run_scene("jack", path, entries=entries)
-        most = evaluation.results_of(Results(path))["largest_pull"]
+        most = outcome.results_of(Results(path))["largest_pull"]
         self.assertIn("reverse bearing", most["mechanism"])
         self.run_program(
             SUCCESS,
@@ -247,7 +247,7 @@ class SealedLid(ProgramTest):
         self.assertGreater(max(suction) - min(suction), 4e5 / 24.6 / 2)
         for row in rows:
             self.assertLess(abs(row["energy_residual"]), 0.01)
-        most = evaluation.results_of(Results(path))["largest_pull"]
+        most = outcome.results_of(Results(path))["largest_pull"]
         self.assertFalse(most["is_capacity"])
         self.assertGreater(most["pull_N"], 0.8e5)  # 3e5 less the weight
 
@@ -265,7 +265,7 @@ class SealedLid(ProgramTest):
         }
         self.run_scene("jack", path, entries=entries)
         rows = history(path)
-        results = evaluation.results_of(Results(path))
+        results = outcome.results_of(Results(path))
         most = results["largest_pull"]
         up = [row["penetration_m"] for row in results["at_depths_up"]]
         self.assertAlmostEqual(up[-1], min(row["penetration_m"] for row in rows[20:]))

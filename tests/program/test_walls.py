@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from program import ALONE, STOPPED, SUCCESS, Entries, ProgramTest, scene
 
-from caisson.loaded import load
+from caisson.verdict.loaded import load
 from caisson.results import Results, Table
 from caisson.export.springs import springs_of
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curves
-from caisson.plot import theory
+from caisson.verdict import theory
 from caisson.results import read_table
 from caisson.study import Study, StudyRun
 from lab.validation.verdict import Row

@@ -14,7 +14,7 @@ from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
-from caisson.plot import theory
+from caisson.verdict import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 from caisson.design.interpretation import Interpretation

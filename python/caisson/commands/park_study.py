@@ -19,7 +19,8 @@ from caisson.band import BEST, ESTIMATES, member_of
 from caisson.parameters.outcome import COMPLETE, status_of
 from caisson.paths import short
 from caisson.ranks import cores
-from caisson.report import installation, verdict
+from caisson.report import verdict
+from caisson.verdict import installation
 from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.runner import Run

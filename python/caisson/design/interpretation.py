@@ -12,9 +12,8 @@ import numpy as np
 
 from caisson.disk import InputError
 from caisson.terminal import printable
-from caisson.design import cone_file, cone_options
+from caisson.design import cone_file, cone_options, correlations
 from caisson.design import cone_layers as layers
-from caisson.design import correlations
 from caisson.design.cone_estimates import Estimates, estimates_of
 from caisson.design.cone_file import Test
 from caisson.design.cone_rules import AREA_RATIO, GIVEN

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from caisson.frame import Frame
-from caisson.loaded import LoadedRun, load
+from caisson.verdict.loaded import LoadedRun, load
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson import disk

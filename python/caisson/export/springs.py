@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.loaded import LoadedRun
+from caisson.verdict.loaded import LoadedRun
 from caisson.units import GRAVITY, WATER_DENSITY
 from caisson.paths import without_user
 from caisson.results import ResultsError, Table

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from caisson.frame import Arrays, Frame
-from caisson.loaded import LoadedRun
+from caisson.verdict.loaded import LoadedRun
 from caisson.results import ResultsError, Table
 from caisson.export.laws import vertical_over_yield_stress, youngs_modulus
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from caisson import band, curves, evaluation
 from caisson.band import BEST, ESTIMATES, HIGH, LOW
-from caisson.plot import suction_methods, theory
-from caisson.report.installation import Rate, installation_of
-from caisson.report.scene import end_of, plug_area
+from caisson.verdict import suction_methods, theory
+from caisson.verdict.installation import Rate, installation_of, plug_area
+from caisson.report.scene import end_of
 from caisson.results import Results, ResultsError
 
 ROWS = 200  # of the grid

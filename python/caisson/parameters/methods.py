@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from caisson.parameters.effects import order
 from caisson.parameters.entry import text_of
 from caisson.parameters.outcome import DEPTH, Outcome, Outcomes, values_at
-from caisson.plot import design, theory
+from caisson.verdict import design, theory
 from caisson.plot.small import over_depth, with_note, write_beside
 from caisson.table import write_columns
 from caisson import disk

@@ -32,7 +32,8 @@ def draw(directory: Path) -> list[Path]:
 
 def _drawn(directory: Path, run: Results) -> list[Path]:
     """Write the pictures of a run; return their paths."""
-    from caisson.plot import design, fields, forces, limits, pore_pressure, suction
+    from caisson.plot import fields, forces, pore_pressure, suction
+    from caisson.verdict import design, limits
     from caisson.plot import walls
 
     pictures = [forces.draw(directory / "forces.png", run)]

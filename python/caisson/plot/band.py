@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 
+from caisson.verdict.end import depth_of
 from caisson import curves
 from caisson.band import band_of
 from caisson.results import Results
@@ -20,7 +21,7 @@ def curve_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     if len(depth) < 2 or column not in run.history:
         return np.full(len(at), np.nan)
     values = curves.smoothed_within(depth, run.history[column][rows], at)
-    return np.where(at <= (run.feasible_to or np.inf), values, np.nan)
+    return np.where(at <= (depth_of(run) or np.inf), values, np.nan)
 
 
 def range_of(run: Results, column: str) -> Range | None:

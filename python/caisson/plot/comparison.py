@@ -16,8 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curve, curves, disk
-from caisson.plot import design
-from caisson.plot.forces import penetration
+from caisson.verdict import design
 from caisson.paths import distinct_ends, seen
 from caisson.plot.small import in_units, legend_below, over_depth
 from caisson.design.quantity import length
@@ -70,7 +69,7 @@ def read(directories: Sequence[Path]) -> Histories:
     found = {}
     for name, directory in zip(names_of(directories), directories):
         found[name] = Results(directory).history
-        if penetration(found[name]) is None:
+        if curves.penetration(found[name]) is None:
             raise ResultsError(f"the body of {directory} does not move")
     return found
 

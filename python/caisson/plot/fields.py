@@ -13,13 +13,13 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.tri import Triangulation
 
+from caisson.verdict.end import depth_of
 from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
-from caisson.plot.forces import penetration
 from caisson.plot.small import in_units
 from caisson.vtu import read_cells, read_points
 from caisson.results import Results, ResultsError, Table
-from caisson import disk
+from caisson import curves, disk
 
 Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
@@ -86,10 +86,10 @@ class Frame:
         self.tops = tops_of(run.scene)
         self.time, self.shown = time, run.shown
         self.label, self.mark = f"t = {time:.3g} s", ""
-        if penetration(history) is not None:
+        if curves.penetration(history) is not None:
             depth = depth_at(time, history)
             self.label = f"penetration {self.shown.depth(depth)}"
-            if (end := run.feasible_to) is not None and depth > end:
+            if (end := depth_of(run)) is not None and depth > end:
                 self.mark = "not feasible"
 
 
@@ -101,7 +101,7 @@ def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
     frame is always among them.
     """
     positions = np.array([time for time, _ in series])
-    if penetration(history) is not None:
+    if curves.penetration(history) is not None:
         positions = np.array([depth_at(time, history) for time in positions])
     low, high = positions.min(), positions.max()
     goals = [x for x in wanted if low - 1e-3 <= x <= high + 1e-3]

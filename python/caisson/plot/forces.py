@@ -8,9 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson.verdict.end import depth_of
 from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
-from caisson.plot import band, theory
+from caisson.plot import band
+from caisson.verdict import theory
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results, Table
 
@@ -34,14 +36,6 @@ def column_of(force: str) -> str:
     return {"total": "total_force_N", "tip": "tip_force_N"}.get(
         force, force.replace(" ", "_") + "_N"
     )
-
-
-def penetration(history: Table) -> np.ndarray | None:
-    """Return the penetration of each row, or None where it does not change."""
-    depth = history.get("penetration_m")
-    if depth is None or not np.all(np.isfinite(depth)) or np.ptp(depth) < 1e-9:
-        return None
-    return depth
 
 
 def smooth(depth: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -177,7 +171,7 @@ def draw_panel(
         draw_bands(axes, answer, names if friction_only else ("total", "tip"))
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
-    set_limits(axes, depth, run.feasible_to)
+    set_limits(axes, depth, depth_of(run))
     for end in [] if friction_only else band.draw(axes, run, "total_force_N", "total"):
         axes.set_xlim(right=max(1.05 * end.max(), axes.get_xlim()[1]))
     label_axes(axes, "wall friction" if friction_only else "force", run.body)
@@ -201,7 +195,7 @@ def draw_methods(axes: Axes, run: Results, answers: list[theory.Answer]) -> None
         for line, force in zip(("--", ":"), (low, high)):
             edge = {"color": method.color, "linewidth": 0.9, "linestyle": line}
             axes.plot(force / 1e3, answer.depth, **edge)
-    set_limits(axes, depth, run.feasible_to)
+    set_limits(axes, depth, depth_of(run))
     label_axes(axes, "total force, and by design methods", run.body)
 
 
@@ -260,7 +254,7 @@ def draw(path: Path, run: Results) -> Path | None:
     if not any(column_of(name) in history for name in COLORS):
         print("plot: no forces in history.csv, so no forces.png")
         return None
-    depth = penetration(history)
+    depth = curves.penetration(history)
     if depth is None:
         figure = Figure(figsize=(7, 4))
         figure.suptitle(run.title, fontsize=10)

@@ -7,13 +7,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from caisson.verdict.end import depth_of
 from caisson.evaluation import rest_of_run
-from caisson.plot import band as between, limits, suction_methods as methods, theory
+from caisson.plot import band as between
+from caisson.verdict import limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
-from caisson.plot.forces import COLORS, draw_error_bar, penetration
+from caisson.plot.forces import COLORS, draw_error_bar
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results, Table
-from caisson import disk
+from caisson import curves, disk
 
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
@@ -162,7 +164,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
     )
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
-    lines = [applied[depth <= (run.feasible_to or np.inf)]]
+    lines = [applied[depth <= (depth_of(run) or np.inf)]]
     lines += between.draw(axes, run, "required_suction_Pa", "required")
     draw_required(axes, answers)
     draw_critical(axes, answers)
@@ -210,7 +212,7 @@ def draw_heave(axes: Axes, run: Results) -> None:
     axes.axvline(0, color="0.6", linewidth=0.8)
     if "seepage_flow_m3_s" in history:
         depth = history["penetration_m"]
-        last = np.flatnonzero(depth <= (run.feasible_to or np.inf))[-1]
+        last = np.flatnonzero(depth <= (depth_of(run) or np.inf))[-1]
         flow = 3600 * history["seepage_flow_m3_s"][last]
         place = run.shown.depth(depth[last])
         text = f"seepage into the plug at {place}: {flow:.2g} m³/h"
@@ -262,7 +264,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
     history = run.history
     if "required_suction_Pa" not in history:
         return []
-    depth = penetration(history)
+    depth = curves.penetration(history)
     if depth is None:
         print("plot: no penetration, so no suction.png")
         return []
@@ -279,7 +281,7 @@ def draw(directory: Path, run: Results) -> list[Path]:
     for axes in panels:
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))
-        fade(axes, run.feasible_to)
+        fade(axes, depth_of(run))
         legend_below(axes, 2 if axes is panels[0] else 1)
     panels[0].set_ylabel("penetration of the skirt tip (m)")
     about = textwrap.fill(theory.about_cone(site, deepest), 200)

@@ -20,7 +20,7 @@ def write(directory: Path, rate: float | None = None) -> Path:
     """Write the report of a run, with a pump for a rate of penetration (m/h), or an
     assumed one; return its path. Raises ResultsError."""
     from caisson.report import page, verdict
-    from caisson.report.installation import Rate
+    from caisson.verdict.installation import Rate
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")

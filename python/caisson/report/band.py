@@ -7,8 +7,9 @@ import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of
 from caisson.design.reasons import text_of
-from caisson.report import installation
-from caisson.report.installation import NOTHING, Installation, Rate
+from caisson.verdict import installation
+from caisson.verdict.installation import NOTHING, Installation, Rate
+from caisson.report.cards import cards_of as own_cards_of
 from caisson.report.verdict import Verdict, verdict_of
 from caisson.results import Results
 from caisson.shown import Units
@@ -70,7 +71,7 @@ def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]
     ends = []
     for estimate, member in ends_of(run).items():
         found = installation.installation_of(member, Rate())
-        own = [] if found is None else installation.cards_of(member, found, Rate())
+        own = [] if found is None else own_cards_of(member, found, Rate())
         ends += [f"{estimate} resistance: {c[1]}" for c in own if c[0] == REST]
     if not ends:
         return cards

@@ -9,15 +9,17 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.curves import error_band
-from caisson.plot import design, forces, suction_methods, theory
+from caisson.plot import forces
+from caisson.verdict import design, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
-from caisson.plot.limits import BOILING, LID, LIMITS
+from caisson.verdict.limits import BOILING, LID, LIMITS
 from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
 from caisson.results import Results, Table
 from caisson.table import by_rows
 from caisson.shown import Units, units_for
-from caisson.report.installation import NOTHING, Installation, texts_of
-from caisson.report.pull import PULL, is_pull, pull_parts
+from caisson.verdict.installation import NOTHING, Installation, texts_of
+from caisson.evaluation import is_pull
+from caisson.report.pull import PULL, pull_parts
 
 GRAY = "#aaaaaa"  # what is deeper than suction reaches
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
@@ -290,7 +292,7 @@ def figures_of(
     """Return the interactive figures: id, title, axis, note and curves that have
     points; the suction, where there is any, before the forces. end: the depth where
     suction ends (m)."""
-    if forces.penetration(run.history) is None:
+    if curves.penetration(run.history) is None:
         return []
     if is_pull(run):
         return [in_units(pull_figure(run), run.shown)]
@@ -329,7 +331,7 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     """
     history, scene = run.history, run.scene
     nothing: dict[str, Any] = {"heads": [], "rows": []}
-    if forces.penetration(history) is None or not scene.get("wall_thickness_m"):
+    if curves.penetration(history) is None or not scene.get("wall_thickness_m"):
         return nothing
     way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
@@ -386,7 +388,7 @@ def remarks_on_numbers(run: Results) -> list[str]:
                 f"Heave and room below the lid are not reliable: {share:.2g} % of the"
                 " volume that the plug gained is unaccounted for."
             )
-    if "total_force_N" in history and forces.penetration(history) is not None:
+    if "total_force_N" in history and curves.penetration(history) is not None:
         depth = history["penetration_m"]
         if (depth >= curves.FROM).sum() > 10:
             rough = 100 * curves.roughness(depth, history["total_force_N"])

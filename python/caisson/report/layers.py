@@ -9,7 +9,8 @@ import numpy as np
 
 from caisson.design.reasons import text_of
 from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
-from caisson.report.scene import is_sealed, readable, scale_of
+from caisson.evaluation import is_sealed
+from caisson.report.scene import readable, scale_of
 from caisson.results import Results
 
 # number of a layer in run.json: its name, its unit, and the entry that sets it

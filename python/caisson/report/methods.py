@@ -8,8 +8,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import depths_of
-from caisson.plot import design, suction_methods, theory
-from caisson.plot.forces import penetration
+from caisson.verdict import design, suction_methods, theory
 from caisson.plot.suction import CRITICAL
 from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
@@ -18,7 +17,7 @@ from caisson.design.method import Forces
 from caisson.table import by_rows
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
-from caisson.report.installation import needs_suction
+from caisson.verdict.installation import needs_suction
 
 RATIO = "computed / "  # before the name of a method
 # the lower case of a method: the upper one
@@ -346,7 +345,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     nothing), and sentences on them; nothing for a run without a way down. end: the
     depth where suction ends (m)."""
     history = run.history
-    if penetration(history) is None or not design.goes_down(history):
+    if curves.penetration(history) is None or not design.goes_down(history):
         return NOTHING
     rows_down = curves.way_down(history["penetration_m"])[1:]
     site = theory.site_of(run)

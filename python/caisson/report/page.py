@@ -8,15 +8,25 @@ from typing import Any
 import numpy as np
 
 from caisson.template import picture_of, template
-from caisson import plot
-from caisson.plot import limits
+from caisson import evaluation, plot
+from caisson.verdict import installation, limits
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson.report import band, content, installation, layers, methods, pull
-from caisson.report import remedies, scene, sketch, verdict
-from caisson.report.installation import Installation, Rate
+from caisson.report import (
+    band,
+    cards,
+    content,
+    layers,
+    methods,
+    pull,
+    remedies,
+    scene,
+    sketch,
+    verdict,
+)
+from caisson.verdict.installation import Installation, Rate
 
 HERE = Path(__file__).parent
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -190,13 +200,13 @@ def css_text(words: str) -> str:
 
 def html(run: Results, rate: Rate) -> str:
     """Return the page. Raises ResultsError or OSError."""
-    is_pull = pull.is_pull(run)
+    is_pulled = evaluation.is_pull(run)
     said = verdict.verdict_of(run)
-    found = None if is_pull else installation.installation_of(run, rate)
+    found = None if is_pulled else installation.installation_of(run, rate)
     if found is not None:
         found = verdict.feasible_part(run, found, said.end, rate)
-    beside = methods.NOTHING if is_pull else methods.methods_of(run, said.end)
-    cards = [] if found is None else installation.cards_of(run, found, rate)
+    beside = methods.NOTHING if is_pulled else methods.methods_of(run, said.end)
+    own = [] if found is None else cards.cards_of(run, found, rate)
     data: dict[str, Any] = {
         "figures": content.figures_of(run, found, said.end),
         "csv": content.csv_of(run.history),
@@ -204,21 +214,21 @@ def html(run: Results, rate: Rate) -> str:
     }
     summary = run.summary if run.scene or not run.is_running else {}
     title = str(summary.get("title") or run.directory.resolve().name)
-    cards = (
+    shown_cards = (
         pull.cards_of(run)
-        if is_pull
-        else band.cards_of(run, cards) + methods.card_of(beside)
+        if is_pulled
+        else band.cards_of(run, own) + methods.card_of(beside)
     )
     return template(HERE / "page.html").render(
         title=title,
         footer=css_text(title),
         job=job_of(run, summary),
-        verdict=said if is_pull else band.verdict_with(run),
+        verdict=said if is_pulled else band.verdict_with(run),
         status=status_of(run),
         progress=progress_of(run)[0] if run.is_running else 0,
         refresh=REFRESH if run.is_running else 0,
         incomplete=incomplete_of(run),
-        cards=cards,
+        cards=shown_cards,
         computed=what_was_computed(run, found),
         averaged=content.averaged(run),
         rate=rate.words,

@@ -7,20 +7,12 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import capacity_in_words, results_of
+from caisson.evaluation import capacity_in_words, is_pull, is_sealed
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
-from caisson.report.scene import is_sealed
+from caisson.verdict.outcome import results_of
 
 PULL, WATER = "pull", "water beneath lid and tip"
-
-
-def is_pull(run: Results) -> bool:
-    """Return whether a run is about the pull: whether the body ends higher than it
-    began, or rises with a sealed lid, as in cycles."""
-    depth = run.history.get("penetration_m", np.zeros(1))
-    rises = bool((np.diff(depth) < 0).any())
-    return bool(depth[-1] < depth[0]) or (is_sealed(run) and rises)
 
 
 def largest_pull(run: Results) -> Mapping[str, Any]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from caisson.evaluation import rest_of_run
-from caisson.plot import design, suction_methods, theory
+from caisson.verdict import design, suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson import disk
 from caisson.design.houlsby_byrne import UNDISTURBED

@@ -17,8 +17,8 @@ import numpy as np
 from caisson.design import shell
 from caisson.design.suction_installation import bisect
 from caisson.units import GRAVITY
-from caisson.plot import limits, suction_methods, theory
-from caisson.report.installation import NOTHING, Installation
+from caisson.verdict import limits, suction_methods, theory
+from caisson.verdict.installation import NOTHING, Installation
 from caisson.report.scene import end_of
 from caisson.results import Results
 

@@ -3,11 +3,12 @@
 included, and which of them the scene marks ASSUMED."""
 import math
 import re
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from caisson.results import Results
 from caisson.design.reasons import text_of
+from caisson.evaluation import is_sealed
+from caisson.verdict.installation import plug_area
 
 ASSUMED = "ASSUMED"
 WALLS = {"wall_friction_angle_deg", "wall_adhesion_Pa"}  # of a layer
@@ -89,11 +90,6 @@ def defaults_of(run: Results) -> dict[str, str]:
     return found
 
 
-def is_sealed(run: Results) -> bool:
-    """Return whether no pump takes water from beneath the lid."""
-    return "lid_water_balance" in run.history
-
-
 def is_assumed(run: Results, entry: str) -> bool:
     """Return whether the scene marks an entry as assumed."""
     return entry in run.summary.get("assumed", [])
@@ -105,12 +101,6 @@ def end_of(run: Results) -> float | None:
         return float(run.entry("Time/End penetration"))
     except ValueError:
         return None
-
-
-def plug_area(scene: Mapping[str, Any]) -> float:
-    """Return the area that suction acts on (m2)."""
-    inner = float(scene["diameter_m"]) - 2 * float(scene["wall_thickness_m"])
-    return math.pi / 4 * inner**2
 
 
 def caisson_of(run: Results) -> list[Item]:

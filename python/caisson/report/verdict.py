@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Whether a caisson goes in, in a sentence: the first line of a report, the last one of
-a run on the terminal, and "verdict" in run.json.
+a run on the terminal, and that of verdict.json.
 
-Suction is feasible down to the depth where the required one reaches the allowable one.
-What a run has behind that depth belongs to a plug that is lifted, or to a pump that
-nobody has: it stands in no card and no maximum.
+Suction is feasible down to the depth where the required one reaches the allowable one:
+see verdict/end.py.
 """
 import functools
 import json
@@ -12,23 +11,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson import curves, disk, evaluation
-from caisson.report import installation, pull, remedies
-from caisson.plot import limits
-from caisson.plot.limits import BOILING, COMPUTED, PIPING
-from caisson.report.installation import NOTHING, Installation, Rate
-from caisson.report.scene import end_of
+from caisson import disk, evaluation
+from caisson.report import cards, pull, remedies
+from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
+from caisson.verdict import end, installation, outcome
+from caisson.verdict.end import REASONS, feasible_part, reached
+from caisson.verdict.installation import Installation, Rate
+from caisson.verdict.limits import COMPUTED, PIPING
 
-KEY, END, LIMITS = "verdict", "feasible_to_m", "limits"  # in run.json
-REASONS = {
-    COMPUTED: "piping",
-    PIPING: "piping by Houlsby & Byrne",
-    BOILING: "boiling below the lid",
-}
-IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
+NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
-FINER = 21  # rows between two of the tables
 
 
 class Verdict(NamedTuple):
@@ -37,46 +30,6 @@ class Verdict(NamedTuple):
     text: str
     end: float | None = None
     reason: str = ""
-
-
-def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
-    """Return the depth (m) where the required suction reaches a limit [n] (kPa), and
-    the row at or below it; None where it does not."""
-    beyond = (found.required >= limit) & (found.required > NOTHING)
-    if not beyond.any():
-        return None
-    i = int(np.argmax(beyond))
-    if i and np.isfinite(limit[i - 1]) and limit[i] > 0:  # 0 is the lid
-        excess = (found.required - limit)[i - 1 : i + 1]
-        return float(np.interp(0, excess, found.depth[i - 1 : i + 1])), i
-    return float(found.depth[i]), i
-
-
-def end_by_program(run: Results) -> tuple[float, str] | None:
-    """Return the depth (m) where the program itself found that suction ends, and why;
-    None where it did not."""
-    if not (ended := run.scene.get("infeasible")):
-        return None
-    reason = str(ended["reason"])
-    return limits.rounded_down(ended["penetration_m"]), IN_PROGRAM.get(reason, reason)
-
-
-def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
-    """Return the depth (m) where the required suction reaches the allowable one, and
-    why; None where it does not."""
-    if not found.has_suction:
-        return None
-    if (end := reached(found, found.allowable)) is None:
-        return end_by_program(run)
-    if i := end[1]:  # rows are far apart where a tip comes into another layer
-        between = np.linspace(found.depth[i - 1], found.depth[i], FINER)
-        finer = installation.installation_of(run, Rate(), between)
-        if finer and (sharper := reached(finer, finer.allowable)):
-            found, end = finer, sharper
-    name = found.governing(end[1])
-    words = found.named(name).replace(name, REASONS.get(name, name))
-    depth = max(limits.rounded_down(end[0]), float(found.depth[0]))
-    return depth, words + found.remark(name, end[1])
 
 
 def beside_gradient(run: Results) -> str:
@@ -90,16 +43,6 @@ def beside_gradient(run: Results) -> str:
         return f"; the computed exit gradient allows {place}"
     place = found.shown.place(end[0], 1)
     return f"; the computed exit gradient is critical at {place}"
-
-
-def feasible_part(
-    run: Results, found: Installation, end: float | None, rate: Rate = Rate()
-) -> Installation:
-    """Return the installation down to a depth (m), with a row there; else all of it."""
-    if end is None:
-        return found
-    at = curves.down_to(end, found.depth)
-    return installation.installation_of(run, rate, at) or found
 
 
 def share_of_allowable(found: Installation) -> str:
@@ -117,7 +60,7 @@ def of_suction(
     run: Results, found: Installation, ended: tuple[float, str] | None
 ) -> str:
     """Return the verdict on a caisson with a weight, to a depth (m), by a reason."""
-    shown, depth, planned = found.shown, float(found.depth[-1]), end_of(run)
+    shown, depth, planned = found.shown, float(found.depth[-1]), planned_end(run)
     weight = f"weight {shown.force(float(run.scene['submerged_weight_N']) / 1e3)}"
     if ended is not None:
         place = shown.place(depth, 1)
@@ -178,14 +121,14 @@ def of_force(run: Results, found: Installation) -> str:
 @functools.lru_cache(maxsize=16)
 def verdict_of(run: Results) -> Verdict:
     """Return the verdict on a run; an empty one where nothing goes in or out."""
-    if pull.is_pull(run):
+    if evaluation.is_pull(run):
         return Verdict(pull.sentence_of(run))
     found = installation.installation_of(run, Rate())
     if found is None:
         return Verdict("")
     if not len(found.required) or not run.scene.get("submerged_weight_N"):
         return Verdict(of_force(run, found))
-    ended = end_of_suction(run, found)
+    ended = end.end_of(run)
     if ended is None:
         return Verdict(of_suction(run, found, None))
     part = feasible_part(run, found, ended[0])
@@ -194,13 +137,13 @@ def verdict_of(run: Results) -> Verdict:
 
 def lines_of(run: Results) -> list[str]:
     """Return the verdict and the penetration by weight, for the terminal."""
-    rest = evaluation.results_of(run).get("rest_penetration_m")
+    rest = outcome.results_of(run).get("rest_penetration_m")
     by_weight = ""
     if rest is not None:
-        place = installation.rest_in_words(run, rest)
+        place = cards.rest_in_words(run, rest)
         at = "" if place.startswith("at most") else "at "
         by_weight = f"Rests by weight {at}{place}."
-        if ways := installation.sinks_on_in_words(run):
+        if ways := cards.sinks_on_in_words(run):
             by_weight += f" {ways[0].upper()}{ways[1:]}."
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
@@ -232,18 +175,16 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
 
 
 def keep(run: Results) -> str:
-    """Write the verdict of a run that has ended into its run.json, with the depth where
-    suction ends and the limits over depth; return it."""
-    found, path = verdict_of(run), run.directory / "run.json"
+    """Write verdict.json of a run that has ended: the verdict, the depth where suction
+    ends and the limits over depth; return the verdict."""
+    found = verdict_of(run)
     if run.is_running or not found.text:
         return found.text
-    known: dict[str, Any] = json.loads(disk.read_text(path))
-    more: dict[str, Any] = {KEY: found.text} | (
-        {END: found.end} if found.end is not None else {}
-    )
+    known: dict[str, Any] = {"verdict": found.text}
+    if found.end is not None:
+        known["feasible_to_m"] = found.end
     if rows := rows_of_limits(run, found.end):
-        more[LIMITS] = rows
-    new = {k: v for k, v in known.items() if k not in (KEY, END, LIMITS)} | more
-    if new != known:
-        disk.update(path, json.dumps(new, indent=2, ensure_ascii=False) + "\n")
+        known["limits"] = rows
+    text = json.dumps(known, indent=2, ensure_ascii=False) + "\n"
+    disk.write(run.directory / NAME, text)
     return found.text

@@ -21,7 +21,7 @@ from caisson.evaluation import BOILING as BOILING_COLUMN
 from caisson.evaluation import DEPTH as DEPTH_COLUMN
 from caisson.evaluation import HEAVE as HEAVE_COLUMN
 from caisson.evaluation import at_depths, pump_limit
-from caisson.plot import suction_methods, theory
+from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
 from caisson.table import write_columns

@@ -8,7 +8,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.design import plug_stability
-from caisson.plot import suction_methods, theory
+from caisson.verdict import suction_methods, theory
 from caisson.results import Results, Table
 from caisson.table import write_columns
 

@@ -13,8 +13,16 @@ import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
-from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
-from caisson.design import plug_stability, senders_randolph
+from caisson.design import (
+    andersen,
+    assumed,
+    clay,
+    dnv,
+    houlsby_byrne,
+    layered,
+    plug_stability,
+    senders_randolph,
+)
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer

@@ -5,10 +5,11 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from caisson import evaluation, needed
+from caisson import needed
 from caisson.curves import depth_at
 from caisson.frame import Frame, choose
 from caisson.lock import is_locked
+from caisson.verdict import outcome
 from caisson.results import Results, ResultsError, Table
 from caisson.units import unit_of
 
@@ -96,7 +97,7 @@ class LoadedRun:
         """The largest force, the margins, the largest pull and the numbers at depths,
         by names; of a run that goes on those so far. The manual lists them
         (doc/how_to/results.md)."""
-        return evaluation.results_of(self.results)
+        return outcome.results_of(self.results)
 
     @functools.cached_property
     def frames(self) -> list[Frame]:

@@ -11,7 +11,7 @@ from math import nan, pi
 
 import numpy as np
 
-from caisson.plot import theory
+from caisson.verdict import theory
 from caisson.design import suction_installation as installation
 from caisson.design.cone import ConeMethod
 from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne

@@ -2,35 +2,39 @@
 """The installation in numbers: what it takes at each half meter and at the end, what
 is allowed, and the pump.
 
-The allowable suction is the least of the limits of plot/limits, each by its factor.
+The allowable suction is the least of the limits of limits.py, each by its factor.
 The pump moves the water that the lid displaces at a stated rate of penetration and that
 which seeps through the plug; a run is usually far faster than a caisson.
 """
+import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run, sinks_on
+from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run
 from caisson.paths import INSTALLED
-from caisson.plot import design, limits, theory
-from caisson.plot.forces import penetration
+from caisson.verdict import design, limits, theory
 from caisson.results import Results, Table
 from caisson.design.reasons import text_of
 from caisson.table import by_rows
 from caisson.shown import USUAL, Units
-from caisson.report.scene import plug_area
 
 HOUR = 3600.0
 NOTHING = 5e-4  # of a unit of the tables
-NEARLY = 0.01  # of the largest flow
-LEAST_FLOW = 0.5  # m3/h, below which a flow is in l/min
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
 ORDER = list(limits.LIMITS)  # of the rows
+
+
+def plug_area(scene: Mapping[str, Any]) -> float:
+    """Return the area that suction acts on (m2)."""
+    inner = float(scene["diameter_m"]) - 2 * float(scene["wall_thickness_m"])
+    return math.pi / 4 * inner**2
 
 
 class Rate(NamedTuple):
@@ -167,7 +171,7 @@ def installation_of(
     """Return the installation at depths [n] (m), or those of the tables; None for a run
     that does not go down."""
     history = run.history
-    if penetration(history) is None or not design.goes_down(history):
+    if curves.penetration(history) is None or not design.goes_down(history):
         return None
     numbers = at_depths(run, at)
     if not numbers or not set(design.FORCES) <= set(numbers):
@@ -311,54 +315,6 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     return [rows_of(takes), rows_of(margins)]
 
 
-def rest_in_words(run: Results, rest: float) -> str:
-    """Return the penetration by weight: at most that of the start where the resistance
-    only builds up below it, within half a wall thickness."""
-    begin = float(run.history[DEPTH][0])
-    thickness = float(run.scene.get("wall_thickness_m") or 0)
-    if rest - begin < thickness / 2:
-        return f"at most {run.shown.depth(begin)}, where the run begins"
-    return run.shown.depth(rest)
-
-
-def sinks_on_in_words(run: Results) -> str:
-    """Return where the weight suffices again below the penetration by weight."""
-    shown, end = run.shown, run.feasible_to or np.inf
-    ways = [
-        f"{shown.place(top)} to {shown.place(bottom)}"
-        for top, bottom in sinks_on(run.history)
-        if top < end
-    ]
-    if not ways:
-        return ""
-    where = " and from ".join(ways)
-    return f"the weight suffices again from {where}: the caisson may run down there"
-
-
-def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
-    """Return (name, value, remark) of what matters beside the verdict."""
-    cards: list[tuple[str, ...]] = []
-    if not len(found.required):
-        return cards
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    shown = found.shown
-    if not found.has_suction:
-        remark = "no suction needed to this depth"
-        if found.excess is not None:
-            more = shown.words(found.excess, "kN", ".0f")
-            remark = f"the weight exceeds the resistance by {more}: {remark}"
-        value = f"more than {shown.place(found.depth[-1])}"
-        cards.append(("Self-weight penetration", value, remark))
-        return cards + pump_cards(run, found, rate)
-    if found.rest is not None:
-        remark = f"under {shown.force(weight)} in water" if weight else ""
-        if ways := sinks_on_in_words(run):
-            remark += f"; {ways}"
-        place = rest_in_words(run, found.rest)
-        cards.append(("Self-weight penetration", place, remark))
-    return cards + pump_cards(run, found, rate)
-
-
 def cells_of(
     found: Installation, values: np.ndarray, at: list[int | None]
 ) -> list[str]:
@@ -416,52 +372,3 @@ def quarters_of(
     heads = [shares.get(float(x), f"{mark}: {shown.place(x)}") for x in wanted]
     head = shown.named("limit of the suction (kPa)")
     return {"heads": [head, *heads], "rows": rows, "depths": wanted}
-
-
-def flow_of(flow: float, form: str) -> str:
-    """Return a flow (m3/h) in words, in l/min where it is that of a model."""
-    if abs(flow) < LEAST_FLOW:
-        return f"{flow * 1000 / 60:{form}} l/min"
-    return f"{flow:{form}} m³/h"
-
-
-def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
-    """Return the largest flow, under suction where there is any."""
-    pumped = (
-        found.required > NOTHING
-        if found.has_suction
-        else np.full(len(found.flow), True)
-    )
-    flow = np.where(pumped, found.flow, -np.inf)
-    # of flows that are nearly the largest one, that against the most suction
-    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
-    words = (
-        f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
-    )
-    if found.has_suction:
-        words += f", against {found.shown.words(found.required[most], 'kPa', '.1f')}"
-        if len(found.seepage):
-            words += f", of which seepage {flow_of(found.seepage[most], '.2g')}"
-    name = "Pump" if found.has_suction else "Water to vent"
-    return name, flow_of(found.flow[most], ".3g"), words
-
-
-def room_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the room below the lid and, from half the skirt on, where heave would use
-    it up if it went on as over the last meter."""
-    depth, heave, room = found.depth, found.heave, float(found.room[-1])
-    shown = found.shown
-    remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
-    length = float(run.scene["skirt_length_m"])
-    if found.lid and room > 0 and length / 2 < depth[-1] and found.lid < length - 5e-3:
-        remark += (
-            f"; it would meet the lid at about {shown.depth(found.lid).split()[0]} of"
-            f" {shown.length(length)}"
-        )
-    return "Room below the lid", shown.depth(room), remark
-
-
-def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
-    """Return the cards of the pump and of the room below the lid."""
-    cards = [flow_card(found, rate)] if len(found.flow) else []
-    return [*cards, room_card(run, found)] if len(found.room) else cards
