@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
-from scipy.stats import theilslopes
 
 from caisson.disk import InputError
 from caisson.units import WATER
@@ -449,6 +448,8 @@ class Readings:
                 for v in (tip, excess)
             )
             if np.ptp(x) > OFFSET:
+                from scipy.stats import theilslopes  # takes half a second
+
                 slope = theilslopes(y, x)[0]
                 share = min(max(float(slope), 0.0), MOST_PRESSURE)
         found = float(np.median(y - share * x)) / (1 - share)
