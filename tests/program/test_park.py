@@ -60,6 +60,7 @@ class Park(CommandTest):
         does."""
         names = ["P1", "P2", "P3"]
         self.write(*(ROW.format(name, 20) for name in names))
+        self.caisson(*self.words_of("--check"))
         with subprocess.Popen(
             self.words(*self.words_of("--jobs", "2")),
             env={**self.environment(), "FAKE_PROGRAM_HOLDS": "P2"},
