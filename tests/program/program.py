@@ -21,6 +21,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 from typing import Any
@@ -45,6 +46,7 @@ ALONE = environment()  # of a program on one rank
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 START = Path.cwd()  # where the server runs
+ONE_CALL = threading.Lock()  # at a time, of all threads
 
 
 def scene(name: str) -> str:
@@ -110,11 +112,13 @@ def server() -> "subprocess.Popen[str] | None":
 
 def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
     """Let the server make a call; return nothing where it cannot."""
-    process = server()
-    if process is None or Path.cwd() != START:
+    if Path.cwd() != START:
         return None
-    assert process.stdin and process.stdout
-    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+    with ONE_CALL, tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        process = server()
+        if process is None:
+            return None
+        assert process.stdin and process.stdout
         for word in (output.name, str(len(words) - 1), *words[1:]):
             process.stdin.write(word + "\0")
         process.stdin.flush()
