@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls the program as a user does: what all test_*.py share.
 
-Each class of a file test_GROUP.py, but for those that others are derived from and
-whose name ends in Test, is a test program/GROUP.CLASS of ctest. By hand, all tests of
-a group, or those that fit a word:
+Each file test_GROUP.py is a test program/GROUP of ctest. By hand, all tests of a group,
+or those of a class or that fit a word:
 
     cd tests/program && python3 -B -m unittest -v test_stop_and_restart
     cd tests/program && python3 -B -m unittest -v test_stop_and_restart -k file
