@@ -97,7 +97,7 @@ class Park(CommandTest):
         return self.out / "runs" / name / "run_key.json"
 
     @mock.patch("caisson.plot.draw")  # which another test looks at
-    def test_parts(self, _: mock.Mock) -> None:
+    def test_parts(self, drawn: mock.Mock) -> None:
         """Each job of an array makes its runs; the overview names what is missing."""
         self.write(*(ROW.format(name, 20) for name in ("A", "B")))
         self.caisson(*self.words_of("--part", "1/2"))
@@ -170,7 +170,7 @@ class Park(CommandTest):
         self.assertEqual(self.calls(), [])
 
     @mock.patch("caisson.plot.draw")  # which another test looks at
-    def test_band(self, _: mock.Mock) -> None:
+    def test_band(self, drawn: mock.Mock) -> None:
         """A row with a spread has three runs, and stands in the overview once."""
         row = ROW.format("A", 20)
         text = f"{HEADS},spread\n{row},su 15%\n{ROW.format('B', 20)},\n"
