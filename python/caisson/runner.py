@@ -84,11 +84,9 @@ def environment() -> dict[str, str]:
     }
     if not set(BATCH) & set(os.environ):
         # ranks of one host share memory: without a network Open MPI complains of TCP,
-        # its libraries for networks take longer to start than many runs, and one
-        # rank needs no process beside it
+        # and its libraries for networks take longer to start than many runs
         defaults["OMPI_MCA_btl"] = "^tcp,ofi,openib"
         defaults["OMPI_MCA_pml"] = "ob1"
-        defaults["OMPI_MCA_ess_singleton_isolated"] = "1"
     return {**defaults, **os.environ}
 
 
