@@ -74,7 +74,7 @@ class Sizes(SuggestTest):
         """Small and large, of every second kind: the first scenes of the laboratory run
         without a warning of what the tool has chosen."""
         options = argparse.Namespace(
-            results=self.made_directory(), validate=False, walls=0.02, limit=1000
+            results=self.made_directory(), validate=False, walls=0.05, limit=1000
         )
         for number in range(0, suggested.QUICK, 2):
             case = suggested.case_of(suggested.SEED, number)
