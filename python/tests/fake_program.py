@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3 -SEB
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stands in for caisson_mpm in tests of studies: the same options, a formula for the
 force, and a file `calls` beside the results that counts the runs.

@@ -115,7 +115,11 @@ class Dask(WithRuns):
         runs[-1].run.entries["Soil/Nothing"] = 1
         with (
             LocalCluster(
-                n_workers=2, threads_per_worker=1, dashboard_address=None
+                n_workers=2,
+                threads_per_worker=1,
+                processes=False,
+                protocol="tcp://",
+                dashboard_address=None,
             ) as cluster,
             contextlib.redirect_stdout(io.StringIO()) as said,
         ):

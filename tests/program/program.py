@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls the program as a user does: what all test_*.py share.
 
-Each class of a file test_GROUP.py, but for those that others are derived from and
-whose name ends in Test, is a test program/GROUP.CLASS of ctest. By hand, all tests of
-a group, or those that fit a word:
+Each file test_GROUP.py is a test program/GROUP of ctest. By hand, all tests of a group,
+or those of a class or that fit a word:
 
     cd tests/program && python3 -B -m unittest -v test_stop_and_restart
     cd tests/program && python3 -B -m unittest -v test_stop_and_restart -k file
@@ -21,6 +20,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 from typing import Any
@@ -45,6 +45,7 @@ ALONE = environment()  # of a program on one rank
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 START = Path.cwd()  # where the server runs
+ONE_CALL = threading.Lock()  # at a time, of all threads
 
 
 def scene(name: str) -> str:
@@ -110,11 +111,13 @@ def server() -> "subprocess.Popen[str] | None":
 
 def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
     """Let the server make a call; return nothing where it cannot."""
-    process = server()
-    if process is None or Path.cwd() != START:
+    if Path.cwd() != START:
         return None
-    assert process.stdin and process.stdout
-    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+    with ONE_CALL, tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        process = server()
+        if process is None:
+            return None
+        assert process.stdin and process.stdout
         for word in (output.name, str(len(words) - 1), *words[1:]):
             process.stdin.write(word + "\0")
         process.stdin.flush()

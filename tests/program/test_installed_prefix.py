@@ -28,6 +28,14 @@ set = {"Time/End penetration" = 0.6, "Time/Inertia tolerance" = 2}
 [parameters."Soil/Layer 1/Friction angle"]
 values = [31, 33]
 """
+# of all commands, in one process
+HELP = """from caisson.__main__ import COMMANDS, main
+for name in COMMANDS:
+    try:
+        main([name, "--help"])
+    except SystemExit as end:
+        print(name, "ends with", end.code)
+"""
 
 
 def contents(prefix: Path) -> dict[str, tuple[int, int]]:
@@ -81,6 +89,21 @@ class Prefix(ProgramTest):
         self.assertEqual(contents(self.prefix), self.before)
         return done.stdout
 
+    def python(self, code: str) -> str:
+        """Let Python run a code with the package of the installation; return what it
+        prints."""
+        package = self.prefix / "share/caisson_mpm/python"
+        done = subprocess.run(
+            ["/usr/bin/python3", "-B", "-c", code],
+            cwd=self.here,
+            env={**ENVIRONMENT, "PYTHONPATH": str(package)},
+            text=True,
+            capture_output=True,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(contents(self.prefix), self.before)
+        return done.stdout
+
     def test_run(self) -> None:
         """A scene of the installation, by its name, into the current directory."""
         said = self.installed("caisson", "run", "column.prm")
@@ -113,14 +136,7 @@ class Prefix(ProgramTest):
             "import caisson\nrun = caisson.run('column.prm', {'Time/End time': 0.05,"
             " 'Verification/Checks': ''})\nprint(caisson.__version__, run.status)"
         )
-        done = subprocess.run(
-            ["/usr/bin/python3", "-B", "-c", code],
-            cwd=self.here,
-            env={**ENVIRONMENT, "PYTHONPATH": str(package)},
-            text=True,
-            capture_output=True,
-        )
-        self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+ finished$", done.stderr)
+        self.assertRegex(self.python(code), r"^\d+\.\d+\.\d+ finished$")
 
     def test_program(self) -> None:
         """The program itself, with a scene that includes another and an error bar."""
@@ -160,7 +176,10 @@ class Prefix(ProgramTest):
         said = self.installed("caisson", "--help")
         for name in COMMANDS:
             self.assertRegex(said, rf"(?m)^  {name} ")
-            self.installed("caisson", name, "--help")
+        said = self.python(HELP)
+        for name in COMMANDS:
+            self.assertRegex(said, rf"(?m)^usage: caisson {name}\b")
+            self.assertIn(f"{name} ends with 0\n", said)
 
     def test_neither_laboratory_nor_workshop(self) -> None:
         names = {path.name for path in self.prefix.rglob("*")}

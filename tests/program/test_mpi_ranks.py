@@ -143,7 +143,7 @@ class OtherScenes(ProgramTest):
         text = self.run_scene(
             "two_fields",
             self.directory(),
-            ranks=8,
+            ranks=3,
             entries={
                 "Grid/Cell width": 1,
                 "Grid/Cell height": 1,

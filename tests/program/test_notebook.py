@@ -60,8 +60,11 @@ class Runs(ProgramTest):
         return caisson.run(self.scene, set=SHORT, output_directory=path, **options)
 
     def test_results(self) -> None:
-        """Tables and meshes agree with each other."""
-        run = self.run_short(self.directory(), ranks=1)
+        """Tables and meshes agree with each other; the lines of the program appear."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            run = self.run_short(self.directory(), ranks=1, echo=True)
+        self.assertIn("pen 0.6 m", said.getvalue())
         self.assertEqual((run.status, run.summary["ranks"]), ("finished", 1))
         history = run.history
         self.assertEqual(history.attrs["units"]["tip_force_N"], "N")
@@ -82,12 +85,6 @@ class Runs(ProgramTest):
         self.assertTrue((path / "earlier_1/history.csv").is_file())
         self.run_short(path, ranks=2, overwrite=True)
         self.assertEqual(caisson.load(path).summary["ranks"], 2)
-
-    def test_echo(self) -> None:
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
-            self.run_short(self.directory(), ranks=1, echo=True)
-        self.assertIn("pen 0.6 m", said.getvalue())
 
     def test_refusal(self) -> None:
         """The message is the program's own."""

@@ -9,12 +9,20 @@ import time
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from program import BAD_INPUT, HERE, STOPPED, SUCCESS, ProgramTest
-from program import history, scene, summary
+from program import caisson, history, scene, summary
+from caisson.commands.run import draw
 from caisson.runner import Run as Call, set_options
 
 SHORT = ["--set", "Time/End penetration=0.52"]
+
+
+def draw_in_full(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
+    """Draw the best run of a band, and not the two beside it."""
+    if in_full:
+        draw(directory, error_bar)
 
 
 class Run(ProgramTest):
@@ -36,6 +44,13 @@ class Run(ProgramTest):
         process = self.start_run(*words)
         text = process.communicate()[0]
         self.assertEqual(process.returncode, status, text)
+        return text
+
+    def run_here(self, status: int, *words: Any) -> str:
+        """Run in this process, ask for this status, and return what Python says."""
+        done = caisson("run", *words)
+        text = done.stdout + done.stderr
+        self.assertEqual(done.returncode, status, text)
         return text
 
     def assert_drawn(self, path: Path) -> None:
@@ -80,10 +95,11 @@ class Run(ProgramTest):
     def test_only_what_was_written_is_drawn(self) -> None:
         path = self.directory()
         words = [scene("jack"), *SHORT, "--output-directory", path]
-        self.run_scene_and_draw(SUCCESS, *words)
+        self.run_here(SUCCESS, *words)
         self.assert_drawn(path)
         (path / "forces.png").unlink()
-        self.run_scene_and_draw(SUCCESS, *words, "--validate")
+        self.run_here(SUCCESS, *words, "--validate")
+        self.assertFalse((path / "forces.png").exists())
         text = self.run_scene_and_draw(BAD_INPUT, *words, "--set", "Grid/Tip=1")
         self.assertEqual(text.count("bad input"), 1)
         self.assertFalse((path / "forces.png").exists())
@@ -107,7 +123,8 @@ class Run(ProgramTest):
         each is told what becomes of it."""
         best = self.band()
         path = best.parent
-        text = self.run_scene_and_draw(SUCCESS, "--band", best)
+        with mock.patch("caisson.commands.run.draw", draw_in_full):
+            text = self.run_here(SUCCESS, "--band", best)
         self.assertEqual(text.count("from its start"), 3)
         self.assertRegex(text, "With low resistance .* at 0.56 m; with high resistance")
         self.assert_drawn(path / "own")
@@ -116,11 +133,13 @@ class Run(ProgramTest):
         low, high = (history(path / f"own_{end}") for end in ("low", "high"))
         self.assertGreater(high[-1]["total_force_N"], low[-1]["total_force_N"])
         (path / "own_low/run_key.json").unlink()
-        text = self.run_scene_and_draw(SUCCESS, best, "--band")
+        with mock.patch("caisson.commands.run.draw") as drawn:
+            text = self.run_here(SUCCESS, best, "--band")
+        self.assertEqual(drawn.call_count, 3)
         self.assertEqual(text.count("complete, and not repeated; --overwrite"), 2)
         self.assertIn("own_low: from its start", text)
         self.assertEqual(history(path / "own_low"), low)
-        text = self.run_scene_and_draw(BAD_INPUT, "--band", best, "--ranks", 2)
+        text = self.run_here(BAD_INPUT, "--band", best, "--ranks", 2)
         self.assertIn("--band takes --set, --restart and --overwrite", text)
 
     def test_band_is_stopped(self) -> None:
@@ -142,7 +161,8 @@ class Run(ProgramTest):
             run = Call(best, entries, best.parent / "own", program=self.program)
             run.resume()
             self.assertEqual(run.restarts, entries == slow)
-        self.run_scene_and_draw(SUCCESS, "--band", best, "--overwrite")
+        with mock.patch("caisson.commands.run.draw"):
+            self.run_here(SUCCESS, "--band", best, "--overwrite")
         run = Call(best, {}, best.parent / "own", program=self.program)
         run.resume()
         self.assertTrue(run.has_checkpoint)

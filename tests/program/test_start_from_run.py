@@ -29,6 +29,16 @@ SHORT: Entries = {"Output/Record interval": 0.05, DEPTH: 0.6}
 class Installation(ProgramTest):
     """Installation/Directory."""
 
+    installed: Path | None = None
+
+    def installation(self) -> Path:
+        """Return the directory of simulation/jack.prm to 0.6 m, which is run once."""
+        cls = type(self)
+        if cls.installed is None:
+            cls.installed = self.directory("before")
+            self.run_scene("jack", cls.installed, entries=SHORT)
+        return cls.installed
+
     def go_on(
         self, before: Path, name: str, entries: Entries, ranks: int = 1
     ) -> tuple[Path, str]:
@@ -51,8 +61,7 @@ class Installation(ProgramTest):
     def test_same_motion(self) -> None:
         """A body that is pushed on does not notice that another run begins, and
         the installation is left as it was."""
-        before, whole = self.directory("before"), self.directory("whole")
-        self.run_scene("jack", before, entries=SHORT)
+        before, whole = self.installation(), self.directory("whole")
         shutil.copytree(before, whole)
         longer = {**SHORT, DEPTH: 0.7}
         self.run_scene("jack", whole, SUCCESS, "--restart", entries=longer)
@@ -101,8 +110,7 @@ class Installation(ProgramTest):
 
     def test_jacked_body_is_let_go(self) -> None:
         """Under a smaller load than that of the jack, the soil holds it."""
-        before = self.directory("before")
-        self.run_scene("jack", before, entries=SHORT)
+        before = self.installation()
         load = history(before)[-1]["total_force_N"]
         for motion in ("lowered", "dropped"):
             with self.subTest(motion):
@@ -123,8 +131,7 @@ class Installation(ProgramTest):
 
     def test_water_after_a_drained_installation(self) -> None:
         """Soil that can hardly drain holds the body that is pulled."""
-        before = self.directory("before")
-        self.run_scene("jack", before, entries=SHORT)
+        before = self.installation()
         pull: Entries = {
             **SHORT,
             "Rigid body/Velocity": -0.1,
@@ -267,10 +274,8 @@ class Installation(ProgramTest):
 
     def test_validate(self) -> None:
         """Friction may differ, whichever entry sets it."""
-        before = self.directory("before")
-        self.run_scene("jack", before, entries={DEPTH: 0.52})
         wall = {"Rigid body/Friction coefficient of the inner wall": 0.3}
-        entries = {INSTALLATION: before, DEPTH: 0.6, **wall}
+        entries = {INSTALLATION: self.installation(), DEPTH: 0.7, **wall}
         text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
         self.assertIn("is valid", text)
 

@@ -33,6 +33,12 @@ class SuggestTest(ProgramTest):
         given = [w for layer in layers for w in ("--layer", layer)]
         return self.caisson("suggest", str(path), *given, *words, status=status)
 
+    def assert_without_doubt(self, said: str) -> None:
+        """Ask that the program, which the command has asked about the scene, has
+        accepted it without a likely mistake."""
+        self.assertIn("is valid", said)
+        self.assertNotIn("warning", said)
+
     def caisson(self, *words: str, status: int = 0) -> str:
         """Run a command for a caisson of 10 m, unless other sizes are given."""
         sizes = {"--diameter": "10", "--skirt": "8", "--wall": "40mm"}
@@ -62,7 +68,7 @@ class Sizes(SuggestTest):
                 sizes = ["--diameter", diameter, "--skirt", skirt, "--wall", wall]
                 text = self.suggest(path, *sizes, "--error", error)
                 self.assertRegex(text, r"duration +about \d")
-                self.run_program(SUCCESS, path, "--validate", "--strict")
+                self.assert_without_doubt(text)
 
     def test_drawn_at_random(self) -> None:
         """Small and large, of every second kind: the first scenes of the laboratory run
@@ -94,11 +100,13 @@ class Band(SuggestTest):
             words += ["--study", str(path.with_suffix(".toml"))]
             text = self.suggest(path, *words, layers=layers)
             self.assertRegex(text, "own_low.prm, .*own_high.prm; next: .* --band")
+            self.assert_without_doubt(text)
             name = "Relative density" if not layers else "Friction angle"
             values = []
             for end in ("_low", "", "_high"):
                 scene = path.with_name(f"own{end}.prm")
-                self.run_program(SUCCESS, scene, "--validate", "--strict")
+                if end:
+                    self.run_program(SUCCESS, scene, "--validate", "--strict")
                 entries = read_parameters([str(scene)])
                 self.assertEqual(entries["Output/Directory"], f"results/own{end}")
                 values.append(float(entries[f"Soil/Layer 1/{name}"]))
@@ -148,12 +156,12 @@ class Layers(SuggestTest):
             "2: Law = ngi-adp, suA = 30 kPa, K0 = 0.9",
             "5: Law = NorSand, E = 60 MPa, Γ = 0.85, e = 0.7, OCR = 2",
         )
-        self.suggest(path, "--wall-friction", "15", layers=layers)
+        said = self.suggest(path, "--wall-friction", "15", layers=layers)
+        self.assert_without_doubt(said)
         text = path.read_text(encoding="utf-8")
         self.assertIn("set Slope of swelling = 0.04 # ASSUMED\n", text)
         self.assertIn("set Slope of compression = 0.16\n", text)
         self.assertIn("set State dilatancy = 3.5 # ASSUMED\n", text)
-        self.run_program(SUCCESS, path, "--validate", "--strict")
 
     def test_undrained_clay_of_another_law(self) -> None:
         """NGI-ADP has adhesion alone, its tip too, and suction without a flow."""
@@ -161,8 +169,7 @@ class Layers(SuggestTest):
         layers = ("0: Law = NGI-ADP, suA = (20 + 1.5*d) kPa, alpha = 0.4",)
         self.suggest(path, "--weight", "300kN", layers=layers)
         self.assertIn("set Suction control = required", path.read_text("utf-8"))
-        self.suggest(path, "--overwrite", layers=layers)
-        self.run_program(SUCCESS, path, "--validate", "--strict")
+        self.assert_without_doubt(self.suggest(path, "--overwrite", layers=layers))
         entries = read_parameters([str(path)])
         for place in ("outer wall", "inner wall", "tip"):
             self.assertEqual(
@@ -178,6 +185,7 @@ class Layers(SuggestTest):
             self.suggest(path, "--weight", "300kN", layers=layers)
             entries = read_parameters([str(path)])
             self.assertEqual(entries["Water/Level"], "undrained")
+            # it is warned of its water, but of no likely mistake
             self.run_program(SUCCESS, path, "--validate", "--strict")
         path = self.made_directory() / "own.prm"
         layers = ("0: Dr = 60%", f"2: {cam_clay}")
@@ -306,8 +314,7 @@ class Words(SuggestTest):
             self.assertEqual(*(entries[f"Soil/Layer 1/{name}"] for entries in found))
         self.assertEqual(float(short["Rigid body/Submerged weight"]), 2.5e6)
         clay = "0: su = 20 kPa, E = 4 MPa, gamma = 17 kN/m3"
-        self.suggest(path / "clay.prm", layers=(clay,))
-        self.run_program(SUCCESS, path / "clay.prm", "--validate", "--strict")
+        self.assert_without_doubt(self.suggest(path / "clay.prm", layers=(clay,)))
         light = "0: phi = 33, E = 20 MPa, gamma = 12 kN/m3"
         said = self.suggest(path / "light.prm", layers=(light,))
         self.assertIn("warning: layer from 0 m: gamma = 12 kN/m3 is taken as", said)
@@ -355,7 +362,7 @@ class SandByDensity(SuggestTest):
         said = self.suggest(path, *sizes, *words, "--error", "20", layers=())
         self.assertRegex(said, r"assumed: \d+ lines of .*own.prm are marked ASSUMED")
         self.assertRegex(said, "6 times as long, as where soil grows stiffer")
-        self.run_program(SUCCESS, path, "--validate", "--strict")
+        self.assert_without_doubt(said)
         return read_parameters([str(path)])
 
     def test_hypoplastic_sand(self) -> None:
@@ -432,7 +439,7 @@ class ConeTests(SuggestTest):
         words += ["--law", "angle"]
         said = self.suggest(scene, *words, layers=())
         self.assertIn("layer 1 has silt from", said)
-        self.run_program(SUCCESS, scene, "--validate", "--strict")
+        self.assert_without_doubt(said)
         self.assertIn("# FROM CPT (bolton-1986-tip)", scene.read_text("utf-8"))
         entries = read_parameters([str(scene)])
         with open(study, "rb") as file:
@@ -515,11 +522,11 @@ class Files(SuggestTest):
         """They get what Mohr-Coulomb soil is assumed to have."""
         path = self.made_directory() / "own.prm"
         law = "Mohr-Coulomb with stiffness by stress"
-        self.suggest(path, layers=(f"0: Law = {law}, {SAND[3:]}",))
+        said = self.suggest(path, layers=(f"0: Law = {law}, {SAND[3:]}",))
+        self.assert_without_doubt(said)
         entries = read_parameters([str(path)])
         self.assertEqual(entries["Soil/Layer 1/Law"], law)
         self.assertEqual(entries["Soil/Layer 1/Solid density"], "2650")
-        self.run_program(SUCCESS, path, "--validate", "--strict")
 
     def test_angle_is_enough(self) -> None:
         """The modulus of sand grows with its angle, as with its density."""
