@@ -424,7 +424,7 @@ namespace CaissonMPM
     result.warnings       = console->warnings();
     result.assumed        = assumed;
     if (records)
-      result.kinetic = RunReview(parts, *records).kinetic_share();
+      result.kinetic = kinetic_share_of(parts, *records);
     return result;
   }
 

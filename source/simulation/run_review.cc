@@ -160,10 +160,31 @@ namespace CaissonMPM
     return result;
   }
 
+  std::optional<KineticShare>
+  kinetic_share_of(const RecordedParts &parts, const Records &records)
+  {
+    const double width = parts.body.shape().width_of_tip();
+    if (width == 0.)
+      return {};
+    std::vector<double>       work = column(records, "external_work_J").value;
+    const std::vector<double> on_water = column(records, "water_work_J").value;
+    for (std::size_t i = 0; i < work.size(); ++i)
+      work[i] += on_water[i];
+    const std::string with_water = "total_force_with_water_N";
+    return find_kinetic_share(
+      column(records, "penetration_m").value,
+      column(records,
+             has_column(records, with_water) ? with_water : "total_force_N")
+        .value,
+      column(records, "kinetic_energy_J").value,
+      work,
+      parts.body.shape().initial_depth() + start_takes * width);
+  }
+
   RunReview::RunReview(const RecordedParts &parts, const Records &records)
     : parts(parts)
-    , records(records)
     , width(parts.body.shape().width_of_tip())
+    , kinetic(kinetic_share_of(parts, records))
   {
     if (width > 0.)
       way = find_way(records, short_way * width / parts_of_short_way);
@@ -290,30 +311,9 @@ namespace CaissonMPM
            "doc/limitations.md, I have clay";
   }
 
-  std::optional<KineticShare>
-  RunReview::kinetic_share() const
-  {
-    if (width == 0.)
-      return {};
-    std::vector<double>       work = column(records, "external_work_J").value;
-    const std::vector<double> on_water = column(records, "water_work_J").value;
-    for (std::size_t i = 0; i < work.size(); ++i)
-      work[i] += on_water[i];
-    const std::string with_water = "total_force_with_water_N";
-    return find_kinetic_share(
-      column(records, "penetration_m").value,
-      column(records,
-             has_column(records, with_water) ? with_water : "total_force_N")
-        .value,
-      column(records, "kinetic_energy_J").value,
-      work,
-      parts.body.shape().initial_depth() + start_takes * width);
-  }
-
   std::optional<std::string>
   RunReview::fast_soil() const
   {
-    const auto kinetic = kinetic_share();
     if (!kinetic || kinetic->share <= KineticShare::allowed)
       return {};
     return "the kinetic energy of the soil is " + percent(kinetic->share, 2) +

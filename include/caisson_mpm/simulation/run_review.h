@@ -42,6 +42,11 @@ namespace CaissonMPM
                      const std::vector<double> &work,
                      const double               start);
 
+  /** Find it in the records of a run, from two widths of the tip below the
+   * start on; nothing without a body that has a tip. Not collective. */
+  std::optional<KineticShare>
+  kinetic_share_of(const RecordedParts &parts, const Records &records);
+
   /**
    * Looks at the records of a run for signs of a numerical fault: a tip force
    * that falls suddenly, a wall from which clay has come off, work that the
@@ -56,11 +61,6 @@ namespace CaissonMPM
     /** Return a warning for each fault that is seen. */
     std::vector<std::string>
     warnings() const;
-
-    /** The kinetic energy over the work, from two widths of the tip below the
-     * start on; nothing without a body that has a tip. */
-    std::optional<KineticShare>
-    kinetic_share() const;
 
     /** What a stretch of the way into the soil shows, as means. */
     struct Stretch
@@ -110,9 +110,9 @@ namespace CaissonMPM
     adhesion_down_to(const double depth, const unsigned int wall) const;
 
     const RecordedParts  parts;
-    const Records       &records;
     const double         width; // of the tip, m
     std::vector<Stretch> way;   // down, until the body is first pulled up
+    const std::optional<KineticShare> kinetic;
   };
 } // namespace CaissonMPM
 
