@@ -39,7 +39,7 @@ namespace CaissonMPM
     const std::regex derived_names(
       R"((forces|stress|displacement|void_ratio|pore_pressure|walls)\.png|)"
       R"(suction\.png|(design|jacked|wall_pressure)\.csv|)"
-      R"(report\.(html|pdf)|run_key\.json)");
+      R"(report\.(html|pdf)|(run_key|verdict)\.json)");
 
     std::vector<fs::path>
     files_named(const std::regex &names, const fs::path &directory)

@@ -39,7 +39,8 @@ namespace CaissonMPM
       "m",
       "Cells up to this distance from the tip are halved Refinement levels "
       "times, those up to twice this distance once less, and so on; auto takes "
-      "twice the thickness of the wall, or twice the radius of a cone or pile.",
+      "three thicknesses of the wall, or three radii of a cone or pile. Within "
+      "less, rows bend sharply, and the tip force is too large.",
       positive);
     add_parameter(
       "Refinement levels along wall",
@@ -79,7 +80,8 @@ namespace CaissonMPM
   double
   GridLines::distance_of_tip(const BodyShape &body) const
   {
-    return refined_distance.value_or(2. * (body.right() - body.left()));
+    constexpr double widths = 3.;
+    return refined_distance.value_or(widths * (body.right() - body.left()));
   }
 
   bool
