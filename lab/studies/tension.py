@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from caisson import evaluation
 from caisson.results import ResultsError
 from caisson.study import Options, Study, StudyError, StudyRun
 from lab import outcome
@@ -59,7 +60,7 @@ def largest_pull(study: Study, run: StudyRun) -> Pull:
         history = run.results.history
     except ResultsError as error:
         raise StudyError(str(error)) from error
-    found = outcome.results_of(run.results).get("largest_pull")
+    found = evaluation.largest_pull(run.results.history)
     if not found:
         raise StudyError(f"{study.id} {run.name}: the caisson is not pulled")
     return Pull(
