@@ -13,7 +13,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import plot
-from caisson.verdict import end, limits
+from caisson.verdict import limits, outcome
 from caisson.report import verdict
 from caisson.verdict import installation
 from caisson.results import Results
@@ -121,7 +121,7 @@ class Governing(WithPage):
         at = np.array([2.36, 2.5])
         found = installation.installation_of(run, installation.Rate(), at)
         assert found is not None
-        ended = end.end_of_suction(run, found)
+        ended = outcome.end_of_suction(run, found)
         self.assertEqual(ended, (2.36, limits.PUMP))
 
     def test_lift(self) -> None:

@@ -11,7 +11,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import evaluation
-from caisson.report import cards, content, page, verdict
+from caisson.report import content, page, verdict
 from caisson.verdict import installation, outcome
 from caisson.results import Results
 
@@ -134,7 +134,7 @@ class Verdicts(WithPage):
         """Where resistance only builds up, the weight has not pushed anything in."""
         run = self.run_of()
         begin = float(run.history[evaluation.DEPTH][0])
-        near, far = (cards.rest_in_words(run, begin + w) for w in (0.01, 0.5))
+        near, far = (verdict.rest_in_words(run, begin + w) for w in (0.01, 0.5))
         place = run.shown.depth(begin)
         self.assertEqual(near, f"at most {place}, where the run begins")
         self.assertEqual(far, run.shown.depth(begin + 0.5))

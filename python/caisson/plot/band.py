@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from caisson.verdict.end import depth_of
+from caisson.verdict.outcome import depth_of
 from caisson import curves
 from caisson.band import band_of
 from caisson.results import Results

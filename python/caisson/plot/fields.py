@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.tri import Triangulation
 
-from caisson.verdict.end import depth_of
+from caisson.verdict.outcome import depth_of
 from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
 from caisson.plot.small import in_units

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.verdict.end import depth_of
+from caisson.verdict.outcome import depth_of
 from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import band

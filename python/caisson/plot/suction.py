@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.verdict.end import depth_of
+from caisson.verdict.outcome import depth_of
 from caisson.evaluation import rest_of_run
 from caisson.plot import band as between
 from caisson.verdict import limits, suction_methods as methods, theory

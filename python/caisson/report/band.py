@@ -9,8 +9,8 @@ from caisson.band import BEST, HIGH, LOW, band_of
 from caisson.design.reasons import text_of
 from caisson.verdict import installation
 from caisson.verdict.installation import NOTHING, Installation, Rate
-from caisson.report.cards import cards_of as own_cards_of
 from caisson.report.verdict import Verdict, verdict_of
+from caisson.report.verdict import cards_of as own_cards_of
 from caisson.results import Results
 from caisson.shown import Units
 

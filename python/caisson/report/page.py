@@ -16,7 +16,6 @@ from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
 from caisson.report import (
     band,
-    cards,
     content,
     layers,
     methods,
@@ -206,7 +205,7 @@ def html(run: Results, rate: Rate) -> str:
     if found is not None:
         found = verdict.feasible_part(run, found, said.end, rate)
     beside = methods.NOTHING if is_pulled else methods.methods_of(run, said.end)
-    own = [] if found is None else cards.cards_of(run, found, rate)
+    own = [] if found is None else verdict.cards_of(run, found, rate)
     data: dict[str, Any] = {
         "figures": content.figures_of(run, found, said.end),
         "csv": content.csv_of(run.history),

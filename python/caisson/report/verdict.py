@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Whether a caisson goes in, in a sentence: the first line of a report, the last one of
-a run on the terminal, and that of verdict.json.
+a run on the terminal, and that of verdict.json. The cards beside it are the penetration
+by weight, the pump, and the room below the lid.
 
 Suction is feasible down to the depth where the required one reaches the allowable one:
-see verdict/end.py.
+see verdict/outcome.py.
 """
 import functools
 import json
@@ -12,16 +13,19 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import disk, evaluation
-from caisson.report import cards, pull, remedies
+from caisson.evaluation import DEPTH, sinks_on
+from caisson.report import pull, remedies
 from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
-from caisson.verdict import end, installation, outcome
-from caisson.verdict.end import REASONS, feasible_part, reached
-from caisson.verdict.installation import Installation, Rate
+from caisson.verdict import installation, outcome
+from caisson.verdict.outcome import REASONS, feasible_part, reached
+from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.limits import COMPUTED, PIPING
 
 NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
+NEARLY = 0.01  # of the largest flow
+LEAST_FLOW = 0.5  # m3/h, below which a flow is in l/min
 
 
 class Verdict(NamedTuple):
@@ -128,11 +132,108 @@ def verdict_of(run: Results) -> Verdict:
         return Verdict("")
     if not len(found.required) or not run.scene.get("submerged_weight_N"):
         return Verdict(of_force(run, found))
-    ended = end.end_of(run)
+    ended = outcome.end_of(run)
     if ended is None:
         return Verdict(of_suction(run, found, None))
     part = feasible_part(run, found, ended[0])
     return Verdict(of_suction(run, part, ended), *ended)
+
+
+def rest_in_words(run: Results, rest: float) -> str:
+    """Return the penetration by weight: at most that of the start where the resistance
+    only builds up below it, within half a wall thickness."""
+    begin = float(run.history[DEPTH][0])
+    thickness = float(run.scene.get("wall_thickness_m") or 0)
+    if rest - begin < thickness / 2:
+        return f"at most {run.shown.depth(begin)}, where the run begins"
+    return run.shown.depth(rest)
+
+
+def sinks_on_in_words(run: Results) -> str:
+    """Return where the weight suffices again below the penetration by weight."""
+    shown, end = run.shown, outcome.depth_of(run) or np.inf
+    ways = [
+        f"{shown.place(top)} to {shown.place(bottom)}"
+        for top, bottom in sinks_on(run.history)
+        if top < end
+    ]
+    if not ways:
+        return ""
+    where = " and from ".join(ways)
+    return f"the weight suffices again from {where}: the caisson may run down there"
+
+
+def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+    """Return (name, value, remark) of what matters beside the verdict."""
+    cards: list[tuple[str, ...]] = []
+    if not len(found.required):
+        return cards
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    shown = found.shown
+    if not found.has_suction:
+        remark = "no suction needed to this depth"
+        if found.excess is not None:
+            more = shown.words(found.excess, "kN", ".0f")
+            remark = f"the weight exceeds the resistance by {more}: {remark}"
+        value = f"more than {shown.place(found.depth[-1])}"
+        cards.append(("Self-weight penetration", value, remark))
+        return cards + pump_cards(run, found, rate)
+    if found.rest is not None:
+        remark = f"under {shown.force(weight)} in water" if weight else ""
+        if ways := sinks_on_in_words(run):
+            remark += f"; {ways}"
+        place = rest_in_words(run, found.rest)
+        cards.append(("Self-weight penetration", place, remark))
+    return cards + pump_cards(run, found, rate)
+
+
+def flow_of(flow: float, form: str) -> str:
+    """Return a flow (m3/h) in words, in l/min where it is that of a model."""
+    if abs(flow) < LEAST_FLOW:
+        return f"{flow * 1000 / 60:{form}} l/min"
+    return f"{flow:{form}} m³/h"
+
+
+def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
+    """Return the largest flow, under suction where there is any."""
+    pumped = (
+        found.required > NOTHING
+        if found.has_suction
+        else np.full(len(found.flow), True)
+    )
+    flow = np.where(pumped, found.flow, -np.inf)
+    # of flows that are nearly the largest one, that against the most suction
+    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
+    words = (
+        f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
+    )
+    if found.has_suction:
+        words += f", against {found.shown.words(found.required[most], 'kPa', '.1f')}"
+        if len(found.seepage):
+            words += f", of which seepage {flow_of(found.seepage[most], '.2g')}"
+    name = "Pump" if found.has_suction else "Water to vent"
+    return name, flow_of(found.flow[most], ".3g"), words
+
+
+def room_card(run: Results, found: Installation) -> tuple[str, ...]:
+    """Return the room below the lid and, from half the skirt on, where heave would use
+    it up if it went on as over the last meter."""
+    depth, heave, room = found.depth, found.heave, float(found.room[-1])
+    shown = found.shown
+    remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
+    length = float(run.scene["skirt_length_m"])
+    if found.lid and room > 0 and length / 2 < depth[-1] and found.lid < length - 5e-3:
+        remark += (
+            f"; it would meet the lid at about {shown.depth(found.lid).split()[0]} of"
+            f" {shown.length(length)}"
+        )
+    return "Room below the lid", shown.depth(room), remark
+
+
+def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+    """Return the cards of the pump and of the room below the lid."""
+    cards = [flow_card(found, rate)] if len(found.flow) else []
+    return [*cards, room_card(run, found)] if len(found.room) else cards
 
 
 def lines_of(run: Results) -> list[str]:
@@ -140,10 +241,10 @@ def lines_of(run: Results) -> list[str]:
     rest = outcome.results_of(run).get("rest_penetration_m")
     by_weight = ""
     if rest is not None:
-        place = cards.rest_in_words(run, rest)
+        place = rest_in_words(run, rest)
         at = "" if place.startswith("at most") else "at "
         by_weight = f"Rests by weight {at}{place}."
-        if ways := cards.sinks_on_in_words(run):
+        if ways := sinks_on_in_words(run):
             by_weight += f" {ways[0].upper()}{ways[1:]}."
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
@@ -162,7 +263,7 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
     found = feasible_part(run, found, end)
     return [
         {
-            evaluation.DEPTH: float(h),
+            DEPTH: float(h),
             evaluation.SUCTION: 1e3 * float(found.required[i]),
             "allowable_suction_Pa": 1e3 * float(found.allowable[i]),
             "governed_by": found.governing(i),
