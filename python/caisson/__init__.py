@@ -18,15 +18,17 @@ The modules of the core, each above those that it uses:
     runner                  Run: one call of the program with entries set
     results                 Results: what a run has left in its directory
     curves                  means over windows and other numbers of a curve
-    frame, loaded, api      what the names above are: meshes, tables, run() and load()
+    frame                   meshes and tables of a moment of a run
     progress                how far a study is
     study                   the format of all studies, and how they are run
     completion              what a shell completes
     command_line            a command line with subcommands in groups
 
-The folders, each above those that it uses; the core imports none of them:
+The folders, each above those that it uses; the core imports none of them, and api, with
+run() and load(), is above all:
 
     design                  design methods, and cone tests as files
+    verdict                 what is decided about a run: limits, end, outcome; load()
     plot                    pictures of a run
     error                   error bars of scenes
     parameters              studies of uncertain or varied entries
