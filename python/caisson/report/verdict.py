@@ -38,7 +38,7 @@ class Verdict(NamedTuple):
 
 def beside_gradient(run: Results) -> str:
     """Return where the exit gradient of the run itself becomes critical, in words."""
-    found = installation.installation_of(run, Rate())
+    found = outcome.whole_way(run)
     limit = found.limits.get(COMPUTED) if found else None
     if found is None or limit is None or not np.isfinite(limit).any():
         return ""
@@ -127,7 +127,7 @@ def verdict_of(run: Results) -> Verdict:
     """Return the verdict on a run; an empty one where nothing goes in or out."""
     if evaluation.is_pull(run):
         return Verdict(pull.sentence_of(run))
-    found = installation.installation_of(run, Rate())
+    found = outcome.whole_way(run)
     if found is None:
         return Verdict("")
     if not len(found.required) or not run.scene.get("submerged_weight_N"):
@@ -257,7 +257,7 @@ def soft_layer_of(found: Installation, i: int) -> dict[str, float]:
 
 def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
     """Return required and allowable suction (Pa) and what governs it, by depth (m)."""
-    found = installation.installation_of(run, Rate())
+    found = outcome.whole_way(run)
     if found is None or not found.limits:
         return []
     found = feasible_part(run, found, end)

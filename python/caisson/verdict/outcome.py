@@ -4,8 +4,7 @@ and suction, the margins and the largest pull.
 
 Suction ends at the depth where the required one reaches the allowable one. What a run
 has behind it belongs to a plug that is lifted, or to a pump that nobody has: it stands
-in no card, no maximum and no margin. All of it follows from history.csv and run.json as
-the program wrote them, so that it is the same before and after a report.
+in no card, maximum or margin. All follows from history.csv and run.json of the program.
 """
 import functools
 from typing import Any
@@ -13,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, evaluation
-from caisson.evaluation import BOILING as BOILING_COLUMN
 from caisson.evaluation import DEPTH, GRADIENT, ROOM, SUCTION, TOTAL, Way, is_pull
 from caisson.results import Results
 from caisson.verdict import installation, limits
@@ -70,15 +68,19 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
 
 
 @functools.lru_cache(maxsize=16)
+def whole_way(run: Results) -> Installation | None:
+    """Return the installation of a run at the depths of the tables, to be read only."""
+    return installation.installation_of(run, Rate())
+
+
+@functools.lru_cache(maxsize=16)
 def end_of(run: Results) -> tuple[float, str] | None:
     """Return the depth (m) where suction ends in a run, and why; None where it does
     not, and of a body without a weight or on its way out."""
     if is_pull(run) or not run.scene.get("submerged_weight_N"):
         return None
-    found = installation.installation_of(run, Rate())
-    if found is None or not len(found.required):
-        return None
-    return end_of_suction(run, found)
+    found = whole_way(run)
+    return end_of_suction(run, found) if found and len(found.required) else None
 
 
 def depth_of(run: Results) -> float | None:
@@ -117,7 +119,7 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if GRADIENT in way.columns:
         found["piping"] = margin(way.columns[GRADIENT])
-    if (boils := way.columns.get(BOILING_COLUMN)) is not None:
+    if (boils := way.columns.get(evaluation.BOILING)) is not None:
         share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
         found["boiling"] = margin(share)
     if limit := evaluation.pump_limit(run):
