@@ -109,7 +109,8 @@ namespace CaissonMPM
       growth,
       "",
       "Away from the fine cells the sizes of neighboring cells have this "
-      "ratio.",
+      "ratio. Beyond ten thicknesses of a wall, sizes grow three times as "
+      "fast.",
       Patterns::Double(1.001, 2.));
     add_parameter(
       "Fine width",

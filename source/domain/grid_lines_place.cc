@@ -105,11 +105,26 @@ namespace CaissonMPM
   }
 
   double
+  GridLines::reach_of_yielding(const BodyShape &body)
+  {
+    // Around a wall, soil yields within some of its widths, and the cells there
+    // decide about the force; around a cone or a pile it may be anywhere.
+    constexpr double widths  = 10.;
+    const bool       is_wall = body.left() > 0.;
+    return is_wall ? widths * body.width_of_tip() :
+                     std::numeric_limits<double>::infinity();
+  }
+
+  double
   GridLines::size_at(const double distance,
+                     const double reach,
                      const double fine,
                      const double coarse) const
   {
-    const double growing = (growth - 1.) * std::max(0., distance);
+    constexpr double faster = 3.;
+    const double     growing =
+      (growth - 1.) * (std::clamp(distance, 0., reach) +
+                       faster * std::max(0., distance - reach));
     return std::min(std::max(coarse / refinement, fine),
                     fine + growing / refinement);
   }
@@ -252,11 +267,12 @@ namespace CaissonMPM
         fixed.push_back({r, "a step or ring of the wall"});
     if (fixed.size() > 4)
       check_parts(body, finest.first, fine, finest.second);
-    const auto size = [=, right = right](const double r) {
+    const double reach = reach_of_yielding(body);
+    const auto   size  = [=, right = right](const double r) {
       if (expands && r < right)
         return right - inner_radius;
       const double distance = std::max({from - r, r - to, 0.}) - fine_width;
-      return size_at(distance, fine, cell_width);
+      return size_at(distance, reach, fine, cell_width);
     };
     return {fixed,
             size,
@@ -312,11 +328,12 @@ namespace CaissonMPM
           return z != 0. && std::abs(z) < flat * fine;
         }))
       fixed.erase(fixed.begin() + 1);
-    const auto size = [=](const double z) {
+    const double reach = reach_of_yielding(body);
+    const auto   size  = [=](const double z) {
       double to_face = std::numeric_limits<double>::infinity();
       for (const double face : faces)
         to_face = std::min(to_face, std::abs(z - face));
-      return size_at(to_face - fine_height, fine, cell_height);
+      return size_at(to_face - fine_height, reach, fine, cell_height);
     };
     return {fixed,
             size,

@@ -196,6 +196,14 @@ namespace CaissonMPM
                        });
   }
 
+  bool
+  Soil::has_layer_with_friction() const
+  {
+    return std::any_of(layers.begin(),
+                       layers.begin() + n_layers_,
+                       [](const auto &layer) { return layer->has_friction(); });
+  }
+
   double
   Soil::stress_borne_above(const double z, const double height) const
   {

@@ -78,6 +78,7 @@ namespace CaissonMPM
   {
     soil.check_parameters();
     body.refine(lines.number_to_divide_by());
+    body.enter_soil(soil.has_layer_with_friction());
     body.check_parameters();
     lines.check_parameters();
     generator.check_parameters();

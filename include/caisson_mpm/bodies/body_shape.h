@@ -213,6 +213,14 @@ namespace CaissonMPM
       refinement = number;
     }
 
+    /** Say whether some of the soil has a friction angle, before
+     * check_parameters(). */
+    void
+    enter_soil(const bool has_friction)
+    {
+      soil_has_friction_ = has_friction;
+    }
+
     /** Return the width of the cells at the body that the shape asks for; 0 if
      * it does not. Units: m. */
     virtual double
@@ -316,9 +324,16 @@ namespace CaissonMPM
     void
     add_cells_across(unsigned int &n);
 
+    bool
+    soil_has_friction() const
+    {
+      return soil_has_friction_;
+    }
+
   private:
     const std::string name_, description_;
-    double            refinement = 1.;
+    double            refinement         = 1.;
+    bool              soil_has_friction_ = true;
   };
 } // namespace CaissonMPM
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace CaissonMPM
 {
@@ -57,13 +58,17 @@ namespace CaissonMPM
         "degrees",
         "The angle of the triangular tip's faces to the horizontal.",
         Double(1., 80.));
-      add_parameter(
+      add_word_or_number(
+        *this,
         "Shoulder bevel",
         shoulder_bevel,
+        "auto",
+        {},
         "",
         "The height by which the mesh raises the outer nodes of the tip, in "
         "widths of a cell there. It makes up for the resistance that cells at "
-        "a sharp corner add, and vanishes as cells become smaller.",
+        "a sharp corner add, and vanishes as cells become smaller; auto is 1, "
+        "or 0.5 if no layer has a friction angle.",
         Double(0., 2.));
       add_parameter(
         "Lid thickness",
@@ -284,11 +289,20 @@ namespace CaissonMPM
       return tip == Tip::triangular ? std::tan(radians(tip_angle)) : 0.;
     }
 
-    /** Of the outer nodes above the faces. Units: m. */
+    /** Of the outer nodes above the faces. Units: m.
+     *
+     * The shape function of a node at the shoulder carries the faces half a
+     * cell beyond it. A tip of 45 degrees whose outer nodes are one cell higher
+     * reaches the height of its shoulder half a cell inside the wall, which
+     * makes up for it: the tip force in sand then does not depend on the cells
+     * across the wall. In clay half of it does (doc/benchmarks.md, section 3).
+     */
     double
     bevel() const
     {
-      return cells_across_wall() > 1 ? shoulder_bevel * cell_width() : 0.;
+      const double cells =
+        shoulder_bevel.value_or(soil_has_friction() ? 1. : .5);
+      return cells_across_wall() > 1 ? cells * cell_width() : 0.;
     }
 
     void
@@ -314,17 +328,17 @@ namespace CaissonMPM
                        to_text(skirt_length) + " m. Reduce the angle.");
     }
 
-    double       outer_diameter      = 6.;
-    double       skirt_length        = 7.;
-    double       wall_thickness      = 0.1;
-    unsigned int cells_across        = 2;
-    Tip          tip                 = Tip::triangular;
-    double       tip_angle           = 45.;
-    double       edge_of_tip         = 0.5;
-    double       shoulder_bevel      = 0.5;
-    double       lid_thickness       = 0.;
-    double       initial_penetration = 0.5;
-    CaissonWall  wall;
+    double                outer_diameter = 6.;
+    double                skirt_length   = 7.;
+    double                wall_thickness = 0.1;
+    unsigned int          cells_across   = 2;
+    Tip                   tip            = Tip::triangular;
+    double                tip_angle      = 45.;
+    double                edge_of_tip    = 0.5;
+    std::optional<double> shoulder_bevel; // none: by the soil
+    double                lid_thickness       = 0.;
+    double                initial_penetration = 0.5;
+    CaissonWall           wall;
   };
 } // namespace CaissonMPM
 

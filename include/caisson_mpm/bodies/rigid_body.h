@@ -44,6 +44,13 @@ namespace CaissonMPM
       shapes[chosen_shape]->refine(number);
     }
 
+    /** See BodyShape::enter_soil(). */
+    void
+    enter_soil(const bool has_friction)
+    {
+      shapes[chosen_shape]->enter_soil(has_friction);
+    }
+
     const BodyShape &
     shape() const
     {

@@ -326,10 +326,16 @@ namespace CaissonMPM
     spacing_in_r(const BodyShape &body) const;
     Spacing
     spacing_in_z(const BodyShape &body, const Soil &soil) const;
+    /** Return the distance from the fine cells beyond which cells grow faster.
+     * Units: m. */
+    static double
+    reach_of_yielding(const BodyShape &body);
     /** Return the size of cells at a distance from the fine ones, between
-     * @p fine and the entry @p coarse. Units: m. */
+     * @p fine and the entry @p coarse; they grow faster beyond @p reach. Units:
+     * m. */
     double
     size_at(const double distance,
+            const double reach,
             const double fine,
             const double coarse) const;
     Spacing

@@ -101,6 +101,10 @@ namespace CaissonMPM
     bool
     has_friction() const;
 
+    /** Whether a layer has a friction angle, before the layers are divided. */
+    bool
+    has_layer_with_friction() const;
+
     /** What the soil between z and a height above it can bear: the initial
      * vertical effective stress of the weight at z or, where no soil has
      * friction, half the least strength. Units: m, Pa. */
