@@ -104,13 +104,15 @@ namespace CaissonMPM
       "Cells far above and below the tip of the body, and all cells of a scene "
       "without a body, have this height.",
       positive);
-    add_parameter(
+    add_word_or_number(
+      *this,
       "Growth ratio",
       growth,
+      "auto",
+      {},
       "",
       "Away from the fine cells the sizes of neighboring cells have this "
-      "ratio. Beyond ten thicknesses of a wall, sizes grow three times as "
-      "fast.",
+      "ratio; auto is 1.15, and 1.45 beyond ten thicknesses of a wall.",
       Patterns::Double(1.001, 2.));
     add_parameter(
       "Fine width",

@@ -121,10 +121,11 @@ namespace CaissonMPM
                      const double fine,
                      const double coarse) const
   {
-    constexpr double faster = 3.;
+    constexpr double near = .15, beyond = .45; // larger by, per size
+    const double     from = std::clamp(distance, 0., reach);
     const double     growing =
-      (growth - 1.) * (std::clamp(distance, 0., reach) +
-                       faster * std::max(0., distance - reach));
+      growth ? (*growth - 1.) * std::max(distance, 0.) :
+               near * from + beyond * std::max(distance - reach, 0.);
     return std::min(std::max(coarse / refinement, fine),
                     fine + growing / refinement);
   }

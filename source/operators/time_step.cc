@@ -235,16 +235,18 @@ namespace CaissonMPM
     // Soil that is heavier than what lies around it reflects its own waves, and
     // swings on it. So the factor falls slowly, with the size of the cells to
     // the power 2/3, although the step allows the square; cells up to twice as
-    // large keep all of it, and halved cells have the factor of their
-    // ancestors. Only the few cells that are bent beneath the tip get what
-    // their step needs.
-    constexpr double margin           = 4.;
-    const auto       size_of_ancestor = [&](const unsigned int cell) {
+    // large keep all of it. The few cells that are halved or bent at the tip
+    // get what their step needs: it is that of the lines of the mesh. With four
+    // cells across a wall, by halving twice, the tip force is the same within
+    // 0.5 % as with a quarter of the step.
+    constexpr double margin     = 4.;
+    const auto       n_children = [&](const unsigned int cell) {
+      return static_cast<double>(1u << 2 * grid.cell_iterator(cell)->level());
+    };
+    const auto size_of_ancestor = [&](const unsigned int cell) {
       InverseSquareOfSize size(grid.geometry(cell));
-      const unsigned int  n_children = 1u
-                                      << 2 * grid.cell_iterator(cell)->level();
-      size.with_level_rows /= n_children;
-      size.bound /= n_children;
+      size.with_level_rows /= n_children(cell);
+      size.bound /= n_children(cell);
       return size;
     };
     double worst = 0.;
@@ -263,8 +265,9 @@ namespace CaissonMPM
       const double level =
                      std::cbrt(margin * square * size.with_level_rows / worst),
                    bent = square * size.bound / worst;
-      inertia_[cell] =
-        std::max(1., inertia_at_tip_ * std::max(std::min(level, 1.), bent));
+      inertia_[cell]    = std::max(1.,
+                                inertia_at_tip_ * n_children(cell) *
+                                  std::max(std::min(level, 1.), bent));
     };
     // 1. cells that points may enter until the next time: of the fastest wave
     const double fastest = *std::max_element(squares.begin(), squares.end());

@@ -291,11 +291,11 @@ check_similar_meshes()
           for (unsigned int i = 0; i < cells.size(); ++i)
             worst =
               std::max(worst, std::abs(cells[i] / (number * of_base[i]) - 1.));
-          // the bevel of the shoulder is half a cell high
+          // the bevel of the shoulder is a cell high
           tip = std::max(tip,
                          std::abs(s.body.shape().tip_height() -
                                   .05 * std::tan(radians(30.)) -
-                                  .5 * .1 / 4. / number));
+                                  .1 / 4. / number));
         }
       verdict("similar meshes: error of the ratio of cells", worst, .05);
       verdict("similar meshes: error of the height of the tip", tip, 1e-12);

@@ -70,10 +70,11 @@ class Launch(CommandTest):
         self.assertEqual(summary(path)["ranks"], expected)
         again = [*self.run_to(0.505, path), "--restart"]
         self.assertRegex(self.caisson(*again)[1], text)
-        options = self.run_to(0.505, one)[1:]
-        self.assertNotIn("run:", self.caisson("run", "--ranks", "1", *options)[1])
+        for depth, option in ((0.502, "--overwrite"), (0.505, "--restart")):
+            options = [*self.run_to(depth, one)[1:], option]
+            self.assertNotIn("run:", self.caisson("run", "--ranks", "1", *options)[1])
         a, b = history(path)[-1], history(one)[-1]
-        self.assertAlmostEqual(a["tip_force_N"] / b["tip_force_N"], 1, delta=1e-3)
+        self.assertAlmostEqual(a["tip_force_N"] / b["tip_force_N"], 1, delta=1e-9)
         for option in ("--validate", "--print-parameters"):
             said, complaints = self.caisson(*again, option)
             self.assertNotIn("run:", said + complaints)

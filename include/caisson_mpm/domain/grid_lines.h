@@ -326,13 +326,13 @@ namespace CaissonMPM
     spacing_in_r(const BodyShape &body) const;
     Spacing
     spacing_in_z(const BodyShape &body, const Soil &soil) const;
-    /** Return the distance from the fine cells beyond which cells grow faster.
-     * Units: m. */
+    /** Return the distance from the fine cells beyond which cells grow faster
+     * with a growth of auto. Units: m. */
     static double
     reach_of_yielding(const BodyShape &body);
     /** Return the size of cells at a distance from the fine ones, between
-     * @p fine and the entry @p coarse; they grow faster beyond @p reach. Units:
-     * m. */
+     * @p fine and the entry @p coarse; with a growth of auto they grow faster
+     * beyond @p reach. Units: m. */
     double
     size_at(const double distance,
             const double reach,
@@ -461,9 +461,9 @@ namespace CaissonMPM
     double                top          = 8.;
     double                cell_width   = 1.;
     double                cell_height  = 1.;
-    double                growth       = 1.15;
     double                fine_width   = 0.2;
     double                fine_height  = 0.2;
+    std::optional<double> growth;    // or auto
     std::optional<double> fine_size; // or auto
     double                zone_below_tip = 1.5;
     UpperZone             upper_zone     = UpperZone::free;

@@ -89,6 +89,10 @@ namespace CaissonMPM
     SoilMaterial
     weight_at(const double depth) const;
 
+    /** Whether the law has a friction angle that is not 0 everywhere. */
+    bool
+    has_friction() const;
+
   private:
     void
     declare_density();
@@ -102,10 +106,6 @@ namespace CaissonMPM
     declare_user_material();
     void
     declare_walls();
-
-    /** Whether the law has a friction angle that is not 0 everywhere. */
-    bool
-    has_friction() const;
 
     /** The profiles in use. */
     std::vector<const Profile *>
