@@ -235,18 +235,20 @@ namespace CaissonMPM
     // Soil that is heavier than what lies around it reflects its own waves, and
     // swings on it. So the factor falls slowly, with the size of the cells to
     // the power 2/3, although the step allows the square; cells up to twice as
-    // large keep all of it. The few cells that are halved or bent at the tip
-    // get what their step needs: it is that of the lines of the mesh. With four
-    // cells across a wall, by halving twice, the tip force is the same within
-    // 0.5 % as with a quarter of the step.
-    constexpr double margin     = 4.;
-    const auto       n_children = [&](const unsigned int cell) {
-      return static_cast<double>(1u << 2 * grid.cell_iterator(cell)->level());
+    // large keep all of it. The few cells that are bent beneath the tip get
+    // what their step needs. Halved cells have twice the factor of their
+    // parents: the error of the tip force follows the factor there, that of the
+    // friction the factor beside the wall, which is thus smaller for the same
+    // step.
+    constexpr double margin = 4.;
+    const auto halved = [&](const unsigned int cell) { // 2 to the power of that
+      return static_cast<double>(1u << grid.cell_iterator(cell)->level());
     };
     const auto size_of_ancestor = [&](const unsigned int cell) {
       InverseSquareOfSize size(grid.geometry(cell));
-      size.with_level_rows /= n_children(cell);
-      size.bound /= n_children(cell);
+      const double        n_children = halved(cell) * halved(cell);
+      size.with_level_rows /= n_children;
+      size.bound /= n_children;
       return size;
     };
     double worst = 0.;
@@ -266,7 +268,7 @@ namespace CaissonMPM
                      std::cbrt(margin * square * size.with_level_rows / worst),
                    bent = square * size.bound / worst;
       inertia_[cell]    = std::max(1.,
-                                inertia_at_tip_ * n_children(cell) *
+                                inertia_at_tip_ * halved(cell) *
                                   std::max(std::min(level, 1.), bent));
     };
     // 1. cells that points may enter until the next time: of the fastest wave

@@ -34,16 +34,15 @@ class Level:
     levels: int
     inertia_tolerance: float
     far: float
-    growth: float
 
 
 LEVELS = {
     level.error: level
     for level in (
-        Level(20, cells=2, levels=1, inertia_tolerance=1.6, far=1, growth=1.2),
-        Level(10, cells=4, levels=2, inertia_tolerance=0.8, far=1, growth=1.2),
-        Level(5, cells=8, levels=3, inertia_tolerance=0.4, far=0.5, growth=1.1),
-        Level(2, cells=16, levels=4, inertia_tolerance=0.2, far=0.25, growth=1.05),
+        Level(20, cells=2, levels=1, inertia_tolerance=1.6, far=1),
+        Level(10, cells=4, levels=2, inertia_tolerance=0.8, far=1),
+        Level(5, cells=8, levels=3, inertia_tolerance=0.4, far=0.5),
+        Level(2, cells=16, levels=4, inertia_tolerance=0.2, far=0.25),
     )
 }
 
@@ -66,7 +65,6 @@ class Mesh:
     top: float
     cell_width: float
     cell_height: float
-    growth: float
     fine: float
     moving_zone: float
     levels: int
@@ -78,6 +76,8 @@ class Mesh:
 DEFAULT_ROW = 0.01  # m, the program's Grid/Smallest row height
 DEPTH_OF_TRAVEL = 1.5  # least height of the compressing zone, as a multiple of T
 FINE_WALLS = 5  # rows so far from the tip are as high as the wall is thick
+REACH_WALLS = 10  # beyond the fine rows, within which rows grow slowly
+GROWTH, FAR_GROWTH = 0.15, 0.45  # m of height per m of distance
 MARGIN = 0.9  # of the flattest row, for Grid/Smallest row height
 FLATTEST = 0.25  # of the smallest cell: a flatter row takes more steps than the tip
 DIAMETERS = 0.01, 100.0  # m
@@ -177,18 +177,21 @@ def deepest_top(body: Body, start: float, end: float, level: Level) -> float:
     return bottom_of(body, start, end, zone_of(body, start, 0.0, [])) - 2 * row
 
 
-def rows_between(
-    lines: Sequence[float], wall: float, cell: float, growth: float
-) -> list[float]:
+def row_at(distance: float, wall: float, cell: float) -> float:
+    """Return the height of the rows at a distance from the tip (m) with the program's
+    Grid/Growth ratio = auto. cell: height far away."""
+    x = max(distance - FINE_WALLS * wall, 0.0)
+    near = min(x, REACH_WALLS * wall)
+    return min(cell, wall + GROWTH * near + FAR_GROWTH * (x - near))
+
+
+def rows_between(lines: Sequence[float], wall: float, cell: float) -> list[float]:
     """Return the height of the flattest row between each two lines of the mesh (m), at
     the start. lines: distances below the tip; cell: height far away."""
     found = []
     for top, bottom in zip(lines, lines[1:]):
         step = (bottom - top) / SAMPLES
-        sizes = [
-            min(cell, wall + (growth - 1) * max(x - FINE_WALLS * wall, 0.0))
-            for x in (top + (k + 0.5) * step for k in range(SAMPLES))
-        ]
+        sizes = [row_at(top + (k + 0.5) * step, wall, cell) for k in range(SAMPLES)]
         number = sum(step / size for size in sizes)
         found.append(sizes[0] * number / max(1, ceil(number - 1e-6)))
     return found
@@ -221,14 +224,13 @@ def mesh_of(
     shares = [share if top > start + zone - 1e-9 else 1.0 for top in tops]
     refuse_thin(tops, FLATTEST * body.wall / level.cells, shares)
     lines = [t - start for t in tops if start + zone + 1e-9 < t < bottom]
-    rows = rows_between([zone, *lines, bottom - start], body.wall, cell, level.growth)
+    rows = rows_between([zone, *lines, bottom - start], body.wall, cell)
     return Mesh(
         outer_radius=2.5 * d,
         bottom=-bottom,
         top=rounded_up(body.skirt + step, step),
         cell_width=to_two_digits(level.far * d / 5),
         cell_height=cell_height,
-        growth=level.growth,
         fine=FINE_WALLS * body.wall,
         moving_zone=zone,
         levels=level.levels,
