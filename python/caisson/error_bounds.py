@@ -6,7 +6,7 @@ The errors come from a study of the scene (`caisson error-bar`), as a file besid
 mine_error_bar.csv of mine.prm. They hold for the scene of the study only, which the
 file names by its fingerprint. The columns of the file are penetration_m and, of each
 quantity, how far it may be too high and too low (below, above), and what leads to the
-limit of all meshes (shift).
+limit of all meshes (shift), 0 where they have none.
 """
 import re
 from pathlib import Path
@@ -147,8 +147,4 @@ def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
         if q.column() in means:
             found |= changes(bar, q, means[q.column()], depth)
     inside = is_inside(bar, depth)
-    return {
-        name: np.where(inside, values, np.nan)
-        for name, values in found.items()
-        if "_limit" not in name
-    }
+    return {name: np.where(inside, values, np.nan) for name, values in found.items()}

@@ -187,12 +187,18 @@ class MeshError(unittest.TestCase):
         np.testing.assert_allclose(found.below, 1.25 * (8 + line[0]) + deviation)
 
     def test_two_runs(self) -> None:
-        """They cannot confirm the order or the sign: three times the error."""
-        found = mesh_error(self.SIZES[:2], np.array([[116.0], [108.0]]), 1)
-        np.testing.assert_allclose(
-            [found.limit, found.below, found.above], [[100], [24], [24]]
-        )
-        self.assertTrue(np.isnan(found.order).all())
+        """They cannot confirm order or sign: three times the error; of a force, 1.5
+        times, and half of it on the side on which the limit is not."""
+        for sign, is_force, sides in (
+            (1, False, [24, 24]),
+            (1, True, [12, 4]),
+            (-1, True, [4, 12]),
+        ):
+            runs = 100 + sign * np.array([[16.0], [8.0]])
+            found = mesh_error(self.SIZES[:2], runs, 1, is_force)
+            np.testing.assert_allclose(found.limit, 100)
+            np.testing.assert_allclose([found.below[0], found.above[0]], sides)
+            self.assertTrue(np.isnan(found.order).all())
 
     def test_it_fails(self) -> None:
         """Runs that go to and fro, or of an order near 0: three times the range over

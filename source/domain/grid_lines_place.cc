@@ -125,7 +125,7 @@ namespace CaissonMPM
     const double     from = std::clamp(distance, 0., reach);
     const double     growing =
       growth ? (*growth - 1.) * std::max(distance, 0.) :
-               near * from + beyond * std::max(distance - reach, 0.);
+                   near * from + beyond * std::max(distance - reach, 0.);
     return std::min(std::max(coarse / refinement, fine),
                     fine + growing / refinement);
   }

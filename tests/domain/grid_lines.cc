@@ -292,13 +292,31 @@ check_similar_meshes()
             worst =
               std::max(worst, std::abs(cells[i] / (number * of_base[i]) - 1.));
           // the bevel of the shoulder is a cell high
-          tip = std::max(tip,
-                         std::abs(s.body.shape().tip_height() -
-                                  .05 * std::tan(radians(30.)) -
-                                  .1 / 4. / number));
+          tip =
+            std::max(tip,
+                     std::abs(s.body.shape().tip_height() -
+                              .05 * std::tan(radians(30.)) - .1 / 4. / number));
         }
       verdict("similar meshes: error of the ratio of cells", worst, .05);
       verdict("similar meshes: error of the height of the tip", tip, 1e-12);
+    }
+}
+
+/** The outer nodes of a tip are a cell higher in soil with friction, and half a
+ * cell without; the tip of this body is 0.1 m high, its cells are 0.1 m wide.
+ */
+void
+check_bevel()
+{
+  Lines s("subsection Rigid body\nset Kind = caisson\n"
+          "set Wall thickness = 0.2\nend\n");
+  for (const bool has_friction : {true, false})
+    {
+      s.body.enter_soil(has_friction);
+      const double height = has_friction ? .2 : .15;
+      verdict(has_friction ? "bevel with friction" : "bevel without friction",
+              std::abs(s.body.shape().tip_height() - height),
+              1e-12);
     }
 }
 
@@ -408,6 +426,7 @@ main(int, char **)
   check_equal_thickness();
   check_edges_of_footing();
   check_similar_meshes();
+  check_bevel();
   check_motion();
   check_refusals();
   return 0;

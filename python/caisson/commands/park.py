@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("positions", type=Path, metavar="positions.csv", help="the table")
     text = "wanted, in %%, of positions whose row has none"
-    add("--error", type=percent, choices=LEVELS, default=10, help=text)
+    add("--error", type=percent, choices=LEVELS, default=5, help=text)
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--check", action="store_true", help="write the scenes, and run nothing")
     text = "runs at a time, default: the fastest"

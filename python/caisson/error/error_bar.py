@@ -86,7 +86,8 @@ def mesh_error_of(
     runs = [study.run(name) for name in names]
     sizes = [1 / refinement_of(run) for run in runs]
     values = np.array([values_of(run, quantity, depths) for run in runs])
-    return mesh_error(np.array(sizes), values, list(names).index("default"))
+    default, is_force = list(names).index("default"), quantity.name.endswith("force")
+    return mesh_error(np.array(sizes), values, default, is_force)
 
 
 def error_of_change(
@@ -155,11 +156,12 @@ def shift_to_limit(
     study: Study, depths: np.ndarray, quantity: Quantity
 ) -> dict[str, np.ndarray]:
     """Return the column with what leads from the default mesh to the limit of all
-    meshes, if there are such runs: relative for a force, and 0 where not all runs reach
-    that far."""
+    meshes, if there are such runs: relative for a force, and 0 where they have no order
+    or do not all reach that far."""
     for names in (term["meshes"] for term in study.keys["errors"] if "meshes" in term):
         values = values_of(study.run("default"), quantity, depths)
-        shift = mesh_error_of(study, names, quantity, depths).limit - values
+        error = mesh_error_of(study, names, quantity, depths)
+        shift = np.where(error.failed, 0.0, error.limit - values)
         if quantity.is_relative:
             shift = relative(shift, values)
         return {quantity.bar_column("shift"): np.nan_to_num(shift)}
@@ -287,11 +289,10 @@ def print_meshes(study: Study, depths: np.ndarray, names: Sequence[str]) -> None
     heads = ["meshes", "order", "not of order 1", f"{finest.name} in bar of the others"]
     print(table.markdown(heads, rows) + "\n")
     print(
-        "Order: the one that the meshes show, in the mean over the depths. Not of order"
-        " 1: the share of the depths where the meshes do not converge in this way, but"
-        " go to and fro, or have an order below 0.5. There, the bar is three times"
-        " their spread. Last column: the share of the depths where the finest mesh lies"
-        " in a bar that is made without it. A dash: not known.\n"
+        "Order: in the mean over the depths. Not of order 1: the share of the depths"
+        " where the meshes go to and fro, or have an order below 0.5. There, the bar is"
+        " three times their spread. Last column: the share of the depths where the"
+        " finest mesh lies in a bar that is made without it. A dash: not known.\n"
     )
 
 

@@ -112,14 +112,14 @@ def draw_error_bar(
 
 
 def draw_error_bars(axes: Axes, bounds: Table) -> None:
-    """Draw the bounds of total and tip force, and the limits of all meshes."""
+    """Draw the bounds of total and tip force, and the limits of the meshes."""
     for name in ("total", "tip"):
         band = error_band(bounds, f"{name}_force", "N")
         draw_error_bar(axes, band, 1e-3, COLORS[name], f"{name}, error bar")
         if (limit := bounds.get(f"{name}_force_limit_N")) is not None:
             depth = bounds["penetration_m"]
             mean = running_mean(depth, limit, window_of(depth))
-            label = "limit of all meshes" if name == "tip" else None
+            label = "best estimate: limit of the meshes" if name == "tip" else None
             axes.plot(
                 mean / 1e3, depth, color=COLORS[name], ls=":", lw=1.2, label=label
             )
@@ -152,7 +152,7 @@ def label_axes(axes: Axes, name: str, body: str) -> None:
     """Name the force of a panel, and place its axes and its legend."""
     depth = f"penetration of the {LOWEST.get(body, 'tip')} (m)"
     over_depth(axes, f"{name} (kN)", depth)
-    legend_below(axes, 2)
+    legend_below(axes)
 
 
 def draw_panel(

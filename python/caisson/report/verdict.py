@@ -109,7 +109,7 @@ def of_force(run: Results, found: Installation) -> str:
     text = shown.force(float(force[-1])) + effective
     bounds = found.force_bounds
     if installation.bar_at(found, bounds, -1, "kN") and bounds is not None:
-        ends = [shown.force(float(side[-1])) for side in (bounds.low, bounds.high)]
+        ends = [shown.force(float(side[-1])) for side in bounds[:2]]
         place = found.shown.place(bounds.end)
         held = f" as at {place}," if found.depth[-1] > bounds.end + 1e-2 else ""
         text += f" (error bar{held} {' to '.join(ends)})"

@@ -2,7 +2,7 @@
 """Writes a scene for your own caisson: domain, mesh, points and inertia tolerance for
 the error that you want, and what it will cost.
 
-    caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 10 \\
+    caisson suggest --diameter 10 --skirt 8 --wall 40mm --error 5 \\
       --layer "0: phi = 33, E = 20 MPa" \\
       --layer "3: phi = 37, E = 40 MPa" own.prm
 
@@ -105,7 +105,7 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
         " hypoplastic, or with one friction angle (cone test only)"
     )
     add("--law", choices=(*sand.LAWS, sand.ONE_ANGLE), help=text)
-    add("--error", type=percent, choices=sizes.LEVELS, default=10, help="wanted, in %%")
+    add("--error", type=percent, choices=sizes.LEVELS, default=5, help="wanted, in %%")
 
 
 def percent(text: str) -> int:
@@ -362,9 +362,7 @@ def weakest_of(options: argparse.Namespace) -> float:
 def within_mesh(options: argparse.Namespace, layers: Sequence[Layer]) -> int:
     """Return how many of the layers the mesh has; say which it has not."""
     tops, body = [layer.top for layer in layers], body_of(options)
-    deepest = sizes.deepest_top(
-        body, begin_of(options), end_of(options), sizes.LEVELS[options.error]
-    )
+    deepest = sizes.deepest_top(body, begin_of(options), end_of(options))
     found = sum(top < deepest for top in tops)
     if found < len(tops):
         print(f"The soil from {tops[found]:g} m on lies below the mesh: left out")

@@ -25,24 +25,22 @@ from caisson.suggest.entry import SuggestError
 class Level:
     """The numerics of an error of the total force, in percent.
 
-    levels: how often cells at the tip are halved; far: size of the cells far away, as
-    a multiple of those for 10 %.
+    levels: how often cells at the tip are halved; inertia_tolerance: of the others.
     """
 
     error: int
     cells: int
     levels: int
     inertia_tolerance: float
-    far: float
 
 
 LEVELS = {
     level.error: level
     for level in (
-        Level(20, cells=2, levels=1, inertia_tolerance=1.6, far=1),
-        Level(10, cells=4, levels=2, inertia_tolerance=0.8, far=1),
-        Level(5, cells=8, levels=3, inertia_tolerance=0.4, far=0.5),
-        Level(2, cells=16, levels=4, inertia_tolerance=0.2, far=0.25),
+        Level(20, cells=2, levels=1, inertia_tolerance=0.8),
+        Level(10, cells=4, levels=2, inertia_tolerance=1.6),
+        Level(5, cells=4, levels=2, inertia_tolerance=0.4),
+        Level(2, cells=8, levels=3, inertia_tolerance=0.2),
     )
 }
 
@@ -68,7 +66,6 @@ class Mesh:
     fine: float
     moving_zone: float
     levels: int
-    refined_distance: float
     near_distance: float
     smallest_row: float
 
@@ -158,9 +155,9 @@ def zone_of(body: Body, start: float, cell: float, tops: Sequence[float]) -> flo
     return zone
 
 
-def cell_height_of(body: Body, level: Level) -> float:
+def cell_height_of(body: Body) -> float:
     """Return the height of the cells far away (m)."""
-    return to_two_digits(level.far * body.diameter / 15)
+    return to_two_digits(body.diameter / 15)
 
 
 def bottom_of(body: Body, start: float, end: float, zone: float) -> float:
@@ -170,10 +167,10 @@ def bottom_of(body: Body, start: float, end: float, zone: float) -> float:
     return rounded_up(depth, step_of(d, 1.0))
 
 
-def deepest_top(body: Body, start: float, end: float, level: Level) -> float:
+def deepest_top(body: Body, start: float, end: float) -> float:
     """Return the depth (m) below which no layer of a mesh begins: it has two rows at
     least above the end."""
-    row = max(cell_height_of(body, level), body.wall)
+    row = max(cell_height_of(body), body.wall)
     return bottom_of(body, start, end, zone_of(body, start, 0.0, [])) - 2 * row
 
 
@@ -216,7 +213,7 @@ def mesh_of(
     """Return the mesh for a travel between two depths in layers with these tops. Raises
     SuggestError where one is too thin for it."""
     d, travel, step = body.diameter, end - start, step_of(body.diameter, 1.0)
-    cell_height = cell_height_of(body, level)
+    cell_height = cell_height_of(body)
     cell = max(cell_height, body.wall)
     zone = zone_of(body, start, cell, tops)
     bottom = bottom_of(body, start, end, zone)
@@ -229,12 +226,11 @@ def mesh_of(
         outer_radius=2.5 * d,
         bottom=-bottom,
         top=rounded_up(body.skirt + step, step),
-        cell_width=to_two_digits(level.far * d / 5),
+        cell_width=to_two_digits(d / 5),
         cell_height=cell_height,
         fine=FINE_WALLS * body.wall,
         moving_zone=zone,
         levels=level.levels,
-        refined_distance=3 * body.wall,
         near_distance=to_two_digits(d / 10),
         smallest_row=to_two_digits(MARGIN * share * min(rows)),
     )

@@ -51,16 +51,17 @@ class Rate(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Error bar of values [n]; below the depth end (m) it has the width of that."""
+    """Error bar of values [n], and the best estimates; below the depth end (m) all have
+    the ratio or the distance to the values that they have there."""
 
     low: np.ndarray
     high: np.ndarray
+    best: np.ndarray
     end: float
 
     def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
         """Return them times a factor, and not below the least one."""
-        low, high = (np.maximum(factor * side, least) for side in (self.low, self.high))
-        return Bounds(low, high, self.end)
+        return Bounds(*(np.maximum(factor * x, least) for x in self[:3]), self.end)
 
 
 @dataclass
@@ -146,9 +147,8 @@ def needs_suction(run: Results) -> bool:
 def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
     """Return the bounds of a column of at_depths() in its unit, [n]; below the error
     bar, up to HELD, those of the same width; None without an error bar."""
-    name, sides = f"{quantity}_{unit}", [
-        f"{quantity}_{s}_{unit}" for s in ("low", "high")
-    ]
+    name = f"{quantity}_{unit}"
+    sides = [f"{quantity}_{side}_{unit}" for side in ("low", "high", "limit")]
     if sides[0] not in numbers:
         return None
     values, depth = numbers[name], numbers["penetration_m"]
@@ -158,11 +158,11 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
     last = int(known[-1])
     held = (depth > depth[last]) & (depth <= depth[last] + HELD)
     found = []
-    for side in sides:
-        ratio, change = numbers[side][last] / values[last], numbers[side] - values
-        below = values * ratio if unit == "N" else values + change[last]
-        found.append(np.where(held, below, numbers[side]))
-    return Bounds(found[0], found[1], float(depth[last]))
+    for side in (numbers.get(side, np.full_like(values, np.nan)) for side in sides):
+        ratio, change = side[last] / values[last], side[last] - values[last]
+        below = values * ratio if unit == "N" else values + change
+        found.append(np.where(held, below, side))
+    return Bounds(*found, float(depth[last]))
 
 
 def installation_of(
@@ -224,12 +224,14 @@ def way_to_an_error(run: Results) -> str:
 
 
 def bar_at(found: Installation, bounds: Bounds | None, i: int, unit: str) -> str:
-    """Return the error bar of a row in words; nothing where it is not known."""
+    """Return the error bar of a row and the best estimate in words; nothing where they
+    are not known."""
     if bounds is None or not np.isfinite([bounds.low[i], bounds.high[i]]).all():
         return ""
-    ends = [text_of(found.shown.factor(unit) * x[i]) for x in (bounds.low, bounds.high)]
+    low, high, best = (text_of(found.shown.factor(unit) * x[i]) for x in bounds[:3])
     about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
-    return f"{about}{ends[0]} to {ends[1]} {found.shown.name(unit)}"
+    best = f", best {best}" if np.isfinite(bounds.best[i]) else ""
+    return f"{about}{low} to {high}{best} {found.shown.name(unit)}"
 
 
 def bar_in_words(run: Results, found: Installation) -> str:
