@@ -77,11 +77,7 @@ class Bodies(unittest.TestCase):
     """Caissons of all sizes: their mesh, and sizes that cannot be meant."""
 
     def test_rows_that_the_travel_compresses(self) -> None:
-        """The program finds 0.00398305 m after a travel of 0.53 m, below its limit, in
-        a mesh 0.9 m deep for a diameter of 0.2 m, a skirt of 0.6 m and a wall of 8 mm.
-        The mesh is so deep now that a third of each row is left."""
-        (row,) = sizes.rows_between([0.1, 0.865], 0.008, 0.013, 1.2)
-        self.assertAlmostEqual(row * (1 - 0.53 / 0.765), 0.00398305, delta=1e-8)
+        """A mesh is so deep that a third of each row is left, whatever its body."""
         for ratio, share, error in product((0.1, 3, 6, 10), (1e-3, 0.1), sizes.LEVELS):
             for diameter in (0.05, 0.2, 3, 25):
                 body = sizes.Body(diameter, ratio * diameter, share * diameter)

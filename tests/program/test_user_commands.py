@@ -219,7 +219,7 @@ class Suggest(CommandTest):
         stiff = soft.replace(" with stiffness by stress", "")
         self.assertNotIn("warning", "".join(self.suggest(path / "soft.prm", soft)))
         text = (path / "soft.prm").read_text(encoding="utf-8")
-        self.assertRegex(text, r"Inertia tolerance *= 1.6\b")
+        self.assertRegex(text, r"Inertia tolerance *= 0.8\b")
         self.suggest(path / "fine.prm", soft, error=5)
         fine = (path / "fine.prm").read_text(encoding="utf-8")
         self.assertRegex(fine, r"Inertia tolerance *= 0.4\b")
