@@ -51,8 +51,7 @@ class Rate(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Error bar of values [n], and the best estimates; below the depth end (m) all have
-    the ratio or the distance to the values that they have there."""
+    """Error bar of values [n], and best estimates; below the depth end (m) as there."""
 
     low: np.ndarray
     high: np.ndarray
@@ -61,7 +60,8 @@ class Bounds(NamedTuple):
 
     def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
         """Return them times a factor, and not below the least one."""
-        return Bounds(*(np.maximum(factor * x, least) for x in self[:3]), self.end)
+        low, high, best = (np.maximum(factor * x, least) for x in self[:3])
+        return Bounds(low, high, best, self.end)
 
 
 @dataclass
@@ -162,7 +162,7 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
         ratio, change = side[last] / values[last], side[last] - values[last]
         below = values * ratio if unit == "N" else values + change
         found.append(np.where(held, below, side))
-    return Bounds(*found, float(depth[last]))
+    return Bounds(found[0], found[1], found[2], float(depth[last]))
 
 
 def installation_of(
