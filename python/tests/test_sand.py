@@ -77,7 +77,16 @@ class Bodies(unittest.TestCase):
     """Caissons of all sizes: their mesh, and sizes that cannot be meant."""
 
     def test_rows_that_the_travel_compresses(self) -> None:
-        """A mesh is so deep that a third of each row is left, whatever its body."""
+        """The program finds 0.00398305 m after a travel of 0.53 m, below its limit, in
+        a mesh 0.9 m deep for a diameter of 0.2 m, a skirt of 0.6 m and a wall of 8 mm.
+        The mesh is so deep now that a third of each row is left. Where rows grow, with
+        a wall of 40 mm, a travel of 5.5 m and a moving zone of 0.3 or 0.8 m, its rows
+        are a little higher than those of suggest."""
+        (row,) = sizes.rows_between([0.1, 0.865], 0.008, 0.013)
+        self.assertAlmostEqual(row * (1 - 0.53 / 0.765), 0.00398305, delta=1e-8)
+        for zone, known in ((0.3, 0.0188521), (0.8, 0.0674451)):
+            (row,) = sizes.rows_between([zone, 8.5], 0.04, 0.4)
+            self.assertTrue(0.8 < row * (1 - 5.5 / (8.5 - zone)) / known < 1)
         for ratio, share, error in product((0.1, 3, 6, 10), (1e-3, 0.1), sizes.LEVELS):
             for diameter in (0.05, 0.2, 3, 25):
                 body = sizes.Body(diameter, ratio * diameter, share * diameter)

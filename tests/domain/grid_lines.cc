@@ -257,7 +257,10 @@ void
 check_similar_meshes()
 {
   const std::vector<double> distances = {0., .1, .2, .4, .8, 1.6};
-  for (const char *levels : {"0", "1"})
+  const std::pair<const char *, const char *> kinds[] = {{"0", "1.2"},
+                                                         {"1", "1.2"},
+                                                         {"0", "auto"}};
+  for (const auto &[levels, growth] : kinds)
     {
       std::vector<double> of_base;
       double              worst = 0., tip = 0.;
@@ -268,10 +271,9 @@ check_similar_meshes()
             "set Cells across the wall = 4\nset Tip angle = 30\nend\n"
             "subsection Grid\nset Outer radius = 15\nset Bottom = -18\n"
             "set Top = 8\nset Cell width = 1.2\nset Cell height = 0.4\n"
-            "set Growth ratio = 1.2\nset Fine width = 0.15\n"
-            "set Fine height = 0.15\nset Refined distance = 0.3\n"
-            "set Refinement levels = " +
-            std::string(levels) +
+            "set Fine width = 0.15\nset Fine height = 0.15\n"
+            "set Refined distance = 0.3\nset Growth ratio = " +
+            std::string(growth) + "\nset Refinement levels = " + levels +
             "\nset Refinement = " + std::to_string(number) + "\nend\n");
           const auto columns = lines_of(s.lines, radial),
                      rows    = lines_of(s.lines, vertical);

@@ -294,8 +294,8 @@ namespace CaissonMPM
      * The shape function of a node at the shoulder carries the faces half a
      * cell beyond it. A tip of 45 degrees whose outer nodes are one cell higher
      * reaches the height of its shoulder half a cell inside the wall, which
-     * makes up for it: the tip force in sand then does not depend on the cells
-     * across the wall. In clay half of it does (doc/benchmarks.md, section 3).
+     * makes up for it in sand; in clay half of it does, as runs with 2, 4 and 8
+     * cells across the wall show (lab/notes/2026-11-27_mesh_of_real_sand.md).
      */
     double
     bevel() const
