@@ -139,7 +139,7 @@ class AtRest(ProgramTest):
         for part, ratio in (("zz", 1), ("rr", 0.5), ("tt", 0.5)):
             exact = f"{ratio}*{VERTICAL_STRESS}"
             checks.append(f"pointwise stress_{part} : {exact} : {error}")
-        entries = {
+        entries: Entries = {
             **AT_REST,
             "Material points/Split and merge": str(split).lower(),
             "Verification/Checks": "; ".join(checks),
