@@ -295,8 +295,14 @@ namespace CaissonMPM
     line.eta_seconds =
       is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);
     console->record(line);
-    if (parts.grid.is_first_rank())
-      write_progress(done, line.eta_seconds);
+    // the file is brought to the disk each time, which takes 15 ms
+    constexpr double interval = 2.; // s of wall time
+    const double     now      = seconds_running();
+    if (parts.grid.is_first_rank() && now - last_progress >= interval)
+      {
+        write_progress(done, line.eta_seconds);
+        last_progress = now;
+      }
   }
 
   void

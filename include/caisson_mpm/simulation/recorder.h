@@ -19,6 +19,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -288,6 +289,7 @@ namespace CaissonMPM
     double        seconds_at_start  = 0.;
     double        fraction_at_start = 0.;
     double        fraction_printed  = 0.;
+    double        last_progress     = -std::numeric_limits<double>::infinity();
     unsigned long first_step        = 0;
 
     // fingerprints; of the first rank
