@@ -210,8 +210,9 @@ namespace CaissonMPM
     // that of its weight: a surcharge, which lies on the soil, does not
     // make it heavier
     if (has_friction())
-      return -initial_stress(Point<2>(0., z))[zz] -
-             (stress_state == InitialStress::k0 && z < 0. ? surcharge : 0.);
+      return (-initial_stress(Point<2>(0., z))[zz] -
+              (stress_state == InitialStress::k0 && z < 0. ? surcharge : 0.)) /
+             materials[material_at(z)].speed_of_failure();
     // without friction it bears what its strength does, and not its weight
     double least = std::numeric_limits<double>::infinity();
     for (unsigned int i = material_at(z + height); i <= material_at(z); ++i)

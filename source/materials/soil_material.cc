@@ -143,6 +143,14 @@ namespace CaissonMPM
                   law_value(Kernels::Entries::critical_friction_angle.name);
   }
 
+  double
+  SoilMaterial::speed_of_failure() const
+  {
+    const double psi =
+      law_value(Kernels::Entries::dilatancy_angle.name).value_or(0.);
+    return std::exp(.5 * pi * std::tan(psi * Kernels::radians_per_degree));
+  }
+
   std::vector<std::pair<std::string, std::string>>
   SoilMaterial::law_entries() const
   {

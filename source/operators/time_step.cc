@@ -49,7 +49,8 @@ namespace CaissonMPM
       "square of the velocity of the body, is this share of the initial "
       "vertical effective stress at the tip, without the surcharge, or, if no "
       "soil has friction, of half the least strength from there to four wall "
-      "thicknesses above, 0.4 to 1.6 as a rule. The scaling follows the penetration. Larger cells get "
+      "thicknesses above, 0.4 to 1.6 as a rule. A constant dilatancy angle psi "
+      "divides it by exp(pi/2 tan psi). The scaling follows the penetration. Larger cells get "
       "less of it, and cells that the tip bends get more. The scaled inertia "
       "resists the deformation of cells, and hardly their translation. Mass "
       "scaling must then be 1.",

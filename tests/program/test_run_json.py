@@ -238,6 +238,24 @@ class Progress(ProgramTest):
         self.assertIn("jack_coarse.prm --output-directory", summary(path)["command"])
         self.assertEqual(summary(path)["units"]["Output/Record interval"], "s")
 
+    def test_inertia_of_dilatant_sand(self) -> None:
+        """Sand that dilates moves faster where it fails, and bears less inertia."""
+        least = []
+        for psi in (0, 30):
+            entries: Entries = {
+                "Time/Inertia tolerance": 1.6,
+                "Time/End penetration": 0.51,
+                "Soil/Layer 1/Dilatancy angle": psi,
+            }
+            path = self.directory(f"{psi}")
+            where = ["--output-directory", path]
+            self.run_program(
+                SUCCESS, user_scene("jack_coarse"), *where, entries=entries
+            )
+            least.append(summary(path)["mass_scaling"][0])
+        speed = np.exp(np.pi / 2 * np.tan(np.radians(30)))
+        self.assertAlmostEqual(least[0] / least[1], speed, delta=1e-3 * speed)
+
 
 if __name__ == "__main__":
     unittest.main()

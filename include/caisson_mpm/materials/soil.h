@@ -106,8 +106,8 @@ namespace CaissonMPM
     has_layer_with_friction() const;
 
     /** What the soil between z and a height above it can bear: the initial
-     * vertical effective stress of the weight at z or, where no soil has
-     * friction, half the least strength. Units: m, Pa. */
+     * vertical effective stress of the weight at z, over its speed of failure,
+     * or, where no soil has friction, half the least strength. Units: m, Pa. */
     double
     stress_borne_above(const double z, const double height) const;
 

@@ -101,6 +101,15 @@ namespace CaissonMPM
     std::optional<double>
     friction_angle() const;
 
+    /**
+     * How much faster than the body soil of a constant dilatancy angle moves
+     * where it fails beneath it: exp(pi/2 tan psi), the ratio of the speeds at
+     * both ends of a fan of logarithmic spirals of 90 degrees; 1 without such
+     * an angle.
+     */
+    double
+    speed_of_failure() const;
+
     /** The names of all entries of the law, and their units. */
     std::vector<std::pair<std::string, std::string>>
     law_entries() const;
