@@ -295,7 +295,7 @@ namespace CaissonMPM
     line.eta_seconds =
       is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);
     console->record(line);
-    // the file is brought to the disk each time, which takes 15 ms
+    // the text of the file has the whole scene, and takes as long as many steps
     constexpr double interval = 2.; // s of wall time
     const double     now      = seconds_running();
     if (parts.grid.is_first_rank() && now - last_progress >= interval)

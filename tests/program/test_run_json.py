@@ -238,6 +238,10 @@ class Progress(ProgramTest):
         self.assertIn("jack_coarse.prm --output-directory", summary(path)["command"])
         self.assertEqual(summary(path)["units"]["Output/Record interval"], "s")
 
+
+class Inertia(ProgramTest):
+    """The factors of the inertia of a run."""
+
     def test_inertia_of_dilatant_sand(self) -> None:
         """Sand that dilates moves faster where it fails, and bears less inertia."""
         least = []

@@ -14,10 +14,10 @@
 // and a larger cell less of it, at least 1. sigma is the initial vertical
 // effective stress at the tip (Soil::stress_borne_above), or half of the
 // strength there where no soil has friction, of which a part counts at the
-// start; v the speed of the body. The
-// factor makes the deformation of a cell heavy (SelectiveMass), and at the body
-// and at the sides of the domain the mass and momentum that the points of a
-// cell bring to its nodes: points keep mass and velocity when it changes.
+// start; v the speed of the body. The factor makes the deformation of a cell
+// heavy (SelectiveMass), and at the body and at the sides of the domain the
+// mass and momentum that the points of a cell bring to its nodes: points keep
+// mass and velocity when it changes.
 #ifndef caisson_mpm_operators_time_step_h
 #define caisson_mpm_operators_time_step_h
 
