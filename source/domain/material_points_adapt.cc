@@ -194,18 +194,24 @@ namespace CaissonMPM
     bring_to_cells(moving);
   }
 
+  double
+  MaterialPoints::volume_ratio_in(const unsigned int cell) const
+  {
+    double now = 0., initial = 0.;
+    for_each_lane(cell, [&](const int b, const int lane) {
+      now += blocks[b].volume[lane];
+      initial += histories[b].initial_volume[lane];
+    });
+    return now / initial;
+  }
+
   void
   MaterialPoints::level_volume_ratio(std::vector<double> &ratio)
   {
     ratio.assign(grid.n_cells(), 1.);
     for (const unsigned int cell : active_cells)
       {
-        double now = 0., initial = 0.;
-        for_each_lane(cell, [&](const int b, const int lane) {
-          now += blocks[b].volume[lane];
-          initial += histories[b].initial_volume[lane];
-        });
-        ratio[cell] = now / initial;
+        ratio[cell] = volume_ratio_in(cell);
         for_each_lane(cell, [&](const int b, const int lane) {
           histories[b].initial_volume[lane] =
             blocks[b].volume[lane] / ratio[cell];

@@ -163,10 +163,10 @@ namespace CaissonMPM
   namespace
   {
     /**
-     * A bound of the largest frequency in a cell, squared, over (2 c)^2. The
-     * gradient in the unit cell is J^-T, and the largest frequency of linear
-     * cells at most 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are level, more
-     * where they are bent.
+     * Frequencies in a cell, squared, over (2 c)^2, in 1/m2. The gradient in
+     * the unit cell is J^-T, and the largest frequency of linear cells at most
+     * 2 c |J^-1|: 1/dr^2 + 1/dz^2 where rows are level, more where they are
+     * bent.
      */
     struct InverseSquareOfSize
     {
@@ -177,13 +177,43 @@ namespace CaissonMPM
                            g.height_left,
                      rise = std::max(std::abs(g.bottom_right - g.bottom_left),
                                      std::abs(top)) /
-                            g.width;
-        with_level_rows = 1. / (g.width * g.width) + 1. / (h * h);
-        bound           = with_level_rows + rise * rise / (h * h);
+                            g.width,
+                     across = 1. / (g.width * g.width), along = 1. / (h * h),
+                     along_bent = along * (1. + rise * rise);
+        with_level_rows         = across + along;
+        bound                   = across + along_bent;
+        of_row                  = std::max(across, along_bent);
       }
 
-      double with_level_rows, bound; // 1/m2
+      /** Of a cell that is @p n times as large. */
+      InverseSquareOfSize
+      enlarged(const double n) const
+      {
+        InverseSquareOfSize result = *this;
+        for (double *x :
+             {&result.with_level_rows, &result.bound, &result.of_row})
+          *x /= n * n;
+        return result;
+      }
+
+      double with_level_rows, bound;
+      double of_row; // of the shortest wave of a row of cells
     };
+
+    /**
+     * (omega dt)^2 must be less than 4 over this, in soil that takes the
+     * share @p d of its strain from the new velocities of the nodes and the
+     * rest from those that the points bring back. They bring the share a of the
+     * shortest wave of a row of cells back, so that in a step
+     *   s += w ((1 - d) v+ + d (v - w s)),   v+ = v - a w s,   w = omega dt.
+     */
+    double
+    narrowing_by_transfer(const double d)
+    {
+      constexpr double n = 2.; // points per direction; more allow 2 % more
+      constexpr double a = (1. - 1. / (n * n)) / 3.;
+      return a + 2. * d * (1. - a);
+    }
 
     /** c^2 = (lambda + 2 mu) / rho of each material, the water included or
      * not; the stiffness of the points changes p_wave_modulus. Units: m2/s2. */
@@ -228,16 +258,33 @@ namespace CaissonMPM
     }
   } // namespace
 
+  std::vector<double>
+  TimeStep::narrowing_of(const std::vector<Kernels::Material> &materials) const
+  {
+    // The Courant number is the margin of a bound. The limit of the transfer is
+    // sharp, and points that have moved within their cells change it by 3 %.
+    constexpr double    margin = .97;
+    const double        excess = fixed_step ? 1. : courant / margin;
+    std::vector<double> narrowing;
+    for (const Kernels::Material &material : materials)
+      narrowing.push_back(excess * excess *
+                          narrowing_by_transfer(strains_with_new_velocities ?
+                                                  1. :
+                                                  material.volume_damping));
+    return narrowing;
+  }
+
   void
   TimeStep::update_inertia(const BackgroundGrid      &grid,
                            const MaterialPoints      &points,
-                           const std::vector<double> &squares)
+                           const std::vector<double> &squares,
+                           const std::vector<double> &narrowing)
   {
     // Soil that is heavier than what lies around it reflects its own waves, and
     // swings on it. So the factor falls slowly, with the size of the cells to
     // the power 2/3, although the step allows the square; cells up to twice as
-    // large keep all of it. The few cells that are bent beneath the tip get
-    // what their step needs. Halved cells have twice the factor of their
+    // large keep all of it. Cells that are bent beneath the tip, or elongated,
+    // get what their step needs. Halved cells have twice the factor of their
     // parents: the error of the tip force follows the factor there, that of the
     // friction the factor beside the wall, which is thus smaller for the same
     // step.
@@ -246,11 +293,7 @@ namespace CaissonMPM
       return static_cast<double>(1u << grid.cell_iterator(cell)->level());
     };
     const auto size_of_ancestor = [&](const unsigned int cell) {
-      InverseSquareOfSize size(grid.geometry(cell));
-      const double        n_children = halved(cell) * halved(cell);
-      size.with_level_rows /= n_children;
-      size.bound /= n_children;
-      return size;
+      return InverseSquareOfSize(grid.geometry(cell)).enlarged(halved(cell));
     };
     double worst = 0.;
     for (const unsigned int cell : points.cells_with_points())
@@ -263,24 +306,30 @@ namespace CaissonMPM
                         std::min(least_inertia, inertia_at_tip_) :
                         inertia_at_tip_;
     largest_inertia = std::max(largest_inertia, inertia_at_tip_);
-    const auto set  = [&](const unsigned int cell, const double square) {
+    const auto set  = [&](const unsigned int cell,
+                         const double       square,
+                         const double       narrowing) {
       const auto   size = size_of_ancestor(cell);
       const double level =
                      std::cbrt(margin * square * size.with_level_rows / worst),
-                   bent = square * size.bound / worst;
-      inertia_[cell]    = std::max(1.,
+                   bent = square *
+                          std::max(size.bound, narrowing * size.of_row) / worst;
+      inertia_[cell] = std::max(1.,
                                 inertia_at_tip_ * halved(cell) *
                                   std::max(std::min(level, 1.), bent));
     };
     // 1. cells that points may enter until the next time: of the fastest wave
-    const double fastest = *std::max_element(squares.begin(), squares.end());
+    const double fastest = *std::max_element(squares.begin(), squares.end()),
+                 most = *std::max_element(narrowing.begin(), narrowing.end());
     inertia_.resize(grid.n_cells());
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (!grid.is_rigid(cell))
-        set(cell, fastest);
+        set(cell, fastest, most);
     // 2. cells with points: of the fastest wave in them
     for (const unsigned int cell : points.cells_with_points())
-      set(cell, largest_in(points, cell, squares));
+      set(cell,
+          largest_in(points, cell, squares),
+          largest_in(points, cell, narrowing));
     translation = factors_of_translation(grid, inertia_);
   }
 
@@ -294,19 +343,24 @@ namespace CaissonMPM
     const std::vector<double> squares = squares_of_waves(soil, materials, true),
                               squares_of_soil =
                                 squares_of_waves(soil, materials, false);
+    const std::vector<double> narrowing = narrowing_of(materials);
     if (tolerance)
-      update_inertia(grid, points, squares);
+      update_inertia(grid, points, squares, narrowing);
     // 2. the largest c^2 (1/dr^2 + 1/dz^2) over the inertia, of the stiffest
-    //    material in each cell of this rank; the same without the water, and
-    //    by zone without the inertia
+    //    material in each cell of this rank, and at least what the transfer
+    //    needs; the same without the water, and by zone without the inertia
     unsigned int        limiting = 0;
     double              worst = 0., worst_of_soil = 0., speed = 0.; // 1/s2, m/s
     std::vector<double> worst_of_zone(GridLines::n_zones, 0.);
     for (const unsigned int cell : points.cells_with_points())
       {
-        const double square    = largest_in(points, cell, squares),
-                     of_soil   = largest_in(points, cell, squares_of_soil);
-        const double size      = InverseSquareOfSize(grid.geometry(cell)).bound,
+        const double square  = largest_in(points, cell, squares),
+                     of_soil = largest_in(points, cell, squares_of_soil);
+        const InverseSquareOfSize sizes(grid.geometry(cell));
+        const double              size =
+                       std::max(sizes.bound,
+                                largest_in(points, cell, narrowing) *
+                                  points.volume_ratio_in(cell) * sizes.of_row),
                      heavy     = tolerance ? size / inertia_[cell] : size,
                      frequency = square * heavy;
         worst_of_soil          = std::max(worst_of_soil, of_soil * heavy);

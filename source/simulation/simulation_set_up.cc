@@ -86,6 +86,8 @@ namespace CaissonMPM
     water->check_parameters();
     nodal_forces.check_parameters();
     nodal_motion.choose_stress_update(time_step.has_inertia_tolerance());
+    time_step.set_strain_from_new_velocities(
+      !nodal_motion.settings().uses_musl());
     nodal_motion.settings().check_parameters();
     check_inertia_tolerance();
     const WaterTraits &traits = water->traits();

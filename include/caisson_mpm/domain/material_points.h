@@ -203,6 +203,11 @@ namespace CaissonMPM
         });
     }
 
+    /** Return the volume of the points in a cell of this rank over their
+     * initial one. There must be points in it. */
+    double
+    volume_ratio_in(const unsigned int cell) const;
+
     /** Return the volume of the points in a cell of this rank. Units: m3 per
      * radian. */
     double

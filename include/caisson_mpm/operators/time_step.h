@@ -5,9 +5,11 @@
 //   dt = C min over cells with points of 1 / (c sqrt(1/dr^2 + 1/dz^2)),
 //   c = sqrt((lambda + 2 mu) / rho) of the layer where it is largest,
 // C the Courant number, rho the inertia per volume, which contains the mass
-// scaling. Where the stiffness depends on
-// stress and void ratio, it is the largest of all points of a layer. Mass
-// scaling enters inertia only: weight and friction are those of the real soil.
+// scaling, and at most what the transfer to the points allows in elongated
+// cells and in soil that has grown (doc/theory.md, section 12). Where the
+// stiffness depends on stress and void ratio, it is the largest of all points
+// of a layer. Mass scaling enters inertia only: weight and friction are those
+// of the real soil.
 //
 // With an inertia tolerance T, the cell that limits the step gets the scaling
 //   s = T sigma / (rho v^2) >= 1
@@ -59,6 +61,14 @@ namespace CaissonMPM
     follow_tip(const std::function<double()> &stress_over_inertia)
     {
       stress_over_inertia_at_tip = stress_over_inertia;
+    }
+
+    /** Whether points are strained by the new velocities of the nodes (USL), or
+     * by those that they bring back to the nodes (MUSL, the default). */
+    void
+    set_strain_from_new_velocities(const bool value)
+    {
+      strains_with_new_velocities = value;
     }
 
     /** The scaling of the smallest cells, found from the tolerance; else 1. */
@@ -179,12 +189,18 @@ namespace CaissonMPM
                   MaterialPoints                 &points,
                   const Soil                     &soil,
                   std::vector<Kernels::Material> &materials);
+    /** What the transfer makes of the square of the frequency of the shortest
+     * wave of a row of cells, by material. */
+    std::vector<double>
+    narrowing_of(const std::vector<Kernels::Material> &materials) const;
     /** Find the scaling from the tolerance, and set the factors of all cells.
-     * @p squares: of the wave speed of each material (m2/s2). Collective. */
+     * @p squares: of the wave speed of each material (m2/s2), @p narrowing:
+     * what the transfer makes of them. Collective. */
     void
     update_inertia(const BackgroundGrid      &grid,
                    const MaterialPoints      &points,
-                   const std::vector<double> &squares);
+                   const std::vector<double> &squares,
+                   const std::vector<double> &narrowing);
     void
     update_limit(const BackgroundGrid                 &grid,
                  const MaterialPoints                 &points,
@@ -205,6 +221,7 @@ namespace CaissonMPM
     double                limit = 0., limit_of_soil = 0.; // s
     // of all ranks; infinite where a zone has no points
     std::array<double, GridLines::n_zones> limit_of_zone;
+    bool                                   strains_with_new_velocities = false;
     int                     age = 0; // steps since the limit was found
     std::string             limiting_cell;
     std::function<double()> stress_over_inertia_at_tip;
