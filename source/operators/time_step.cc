@@ -142,6 +142,7 @@ namespace CaissonMPM
                           const Soil                     &soil,
                           std::vector<Kernels::Material> &materials)
   {
+    margin_of_modulus.assign(materials.size(), 1.);
     // 1. the materials whose stiffness varies, if any
     bool any = false;
     for (unsigned int i = 0; i < materials.size(); ++i)
@@ -155,9 +156,11 @@ namespace CaissonMPM
     // 3. what may come until the next update, and the water
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (found[i] > 0.) // else no point is of this material
-        materials[i].p_wave_modulus =
-          materials[i].water_modulus +
-          soil.material(i).modulus_to_come(found[i]);
+        {
+          const double to_come = soil.material(i).modulus_to_come(found[i]);
+          margin_of_modulus[i] = to_come / found[i];
+          materials[i].p_wave_modulus = materials[i].water_modulus + to_come;
+        }
   }
 
   namespace
@@ -262,15 +265,16 @@ namespace CaissonMPM
   TimeStep::narrowing_of(const std::vector<Kernels::Material> &materials) const
   {
     // The Courant number is the margin of a bound. The limit of the transfer is
-    // sharp, and points that have moved within their cells change it by 3 %.
+    // sharp: points that have moved within their cells change it by 3 %, and a
+    // modulus that varies has its own margin.
     constexpr double    margin = .97;
     const double        excess = fixed_step ? 1. : courant / margin;
     std::vector<double> narrowing;
-    for (const Kernels::Material &material : materials)
-      narrowing.push_back(excess * excess *
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      narrowing.push_back(excess * excess / margin_of_modulus[i] *
                           narrowing_by_transfer(strains_with_new_velocities ?
                                                   1. :
-                                                  material.volume_damping));
+                                                  materials[i].volume_damping));
     return narrowing;
   }
 

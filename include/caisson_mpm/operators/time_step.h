@@ -229,6 +229,7 @@ namespace CaissonMPM
     double                  least_inertia   = 0.; // 0: not yet found
     double                  largest_inertia = 1.;
     std::vector<double>     inertia_, translation; // of deformation; see there
+    std::vector<double>     margin_of_modulus;     // of each material
   };
 } // namespace CaissonMPM
 
