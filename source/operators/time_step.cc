@@ -199,6 +199,14 @@ namespace CaissonMPM
         return result;
       }
 
+      /** What limits the step, with what the transfer makes of the shortest
+       * wave of a row. */
+      double
+      with_transfer(const double narrowing) const
+      {
+        return std::max(bound, narrowing * of_row);
+      }
+
       double with_level_rows, bound;
       double of_row; // of the shortest wave of a row of cells
     };
@@ -316,11 +324,10 @@ namespace CaissonMPM
       const auto   size = size_of_ancestor(cell);
       const double level =
                      std::cbrt(margin * square * size.with_level_rows / worst),
-                   bent = square *
-                          std::max(size.bound, narrowing * size.of_row) / worst;
-      inertia_[cell] = std::max(1.,
+                   needed = square * size.with_transfer(narrowing) / worst;
+      inertia_[cell]      = std::max(1.,
                                 inertia_at_tip_ * halved(cell) *
-                                  std::max(std::min(level, 1.), bent));
+                                  std::max(std::min(level, 1.), needed));
     };
     // 1. cells that points may enter until the next time: of the fastest wave
     const double fastest = *std::max_element(squares.begin(), squares.end()),
@@ -360,11 +367,10 @@ namespace CaissonMPM
       {
         const double square  = largest_in(points, cell, squares),
                      of_soil = largest_in(points, cell, squares_of_soil);
-        const InverseSquareOfSize sizes(grid.geometry(cell));
-        const double              size =
-                       std::max(sizes.bound,
-                                largest_in(points, cell, narrowing) *
-                                  points.volume_ratio_in(cell) * sizes.of_row),
+        const double size =
+                       InverseSquareOfSize(grid.geometry(cell))
+                         .with_transfer(largest_in(points, cell, narrowing) *
+                                        points.volume_ratio_in(cell)),
                      heavy     = tolerance ? size / inertia_[cell] : size,
                      frequency = square * heavy;
         worst_of_soil          = std::max(worst_of_soil, of_soil * heavy);
