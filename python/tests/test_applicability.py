@@ -47,10 +47,10 @@ class Applicability(unittest.TestCase):
         return [answer.why_not for answer in answers]
 
     def test_sand(self) -> None:
-        self.assertEqual(self.why(self.site(LAYER)), [""] * 4 + [NOT_CLAY])
+        self.assertEqual(self.why(self.site(LAYER)), [""] * 5 + [NOT_CLAY])
         without = self.site(LAYER)._replace(cone=None)
-        self.assertEqual(self.why(without), [""] * 4 + [NOT_CLAY])
-        for answer in theory.answers_to(without, 2)[:4]:
+        self.assertEqual(self.why(without), [""] * 5 + [NOT_CLAY])
+        for answer in theory.answers_to(without, 2)[:5]:
             marked = answer.method.key != "houlsby_byrne"
             self.assertEqual("ASSUMED" in answer.name, marked)
         for answer in theory.answers_to(self.site(LAYER), 2):
@@ -74,7 +74,7 @@ class Applicability(unittest.TestCase):
             self.assertIn(words, self.why(site)[1])
         # the tip does not reach the clay
         shallow = self.site(LAYER, clay)._replace(cone=None)
-        self.assertEqual(self.why(shallow, 0.9), [""] * 4 + [NOT_CLAY])
+        self.assertEqual(self.why(shallow, 0.9), [""] * 5 + [NOT_CLAY])
 
     def test_clay(self) -> None:
         """Its strength answers, and DNV has coefficients, undrained or not."""
@@ -82,7 +82,7 @@ class Applicability(unittest.TestCase):
             byrne, *others = self.why(self.site(CLAY, level=level))
             self.assertIn("layer 1 has no friction angle", byrne)
             only = "layer 1 is clay, and the method is for sand"
-            self.assertEqual(others, ["", only, only, ""])
+            self.assertEqual(others, ["", only, only, only, ""])
 
     def test_forces_in_clay(self) -> None:
         """In two layers; the second has an adhesion of its own, the first the
@@ -134,10 +134,10 @@ class Applicability(unittest.TestCase):
         for law in theory.BY_DENSITY:
             byrne, *others = self.why(self.site({**LAYER, "law": law}))
             self.assertIn(f"{law}, and run.json has no density", byrne)
-            self.assertEqual(others, [""] * 3 + [NOT_CLAY])
+            self.assertEqual(others, [""] * 4 + [NOT_CLAY])
             dense = {**LAYER, "law": law, "relative_density": 0.85}
             site = self.site(dense)._replace(cone=None)
-            self.assertEqual(self.why(site), [""] * 4 + [NOT_CLAY])
+            self.assertEqual(self.why(site), [""] * 5 + [NOT_CLAY])
             self.assertIn("friction angle ASSUMED", theory.about_cone(site, 2))
 
     def test_friction_angle_by_density(self) -> None:
@@ -175,7 +175,7 @@ class Applicability(unittest.TestCase):
 
     def test_layers_that_the_tip_does_not_reach(self) -> None:
         site = self.site(LAYER, {**CLAY, "top_depth_m": 3})
-        self.assertEqual(self.why(site, 2.9), [""] * 4 + [NOT_CLAY])
+        self.assertEqual(self.why(site, 2.9), [""] * 5 + [NOT_CLAY])
         self.assertIn("layer 2 has no friction", self.why(site, 3.1)[0])
 
     def test_bodies(self) -> None:

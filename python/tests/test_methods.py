@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.design import andersen, clay, cone, dnv, layered, senders_randolph
+from caisson.design import unified
 from caisson.design import houlsby_byrne
 from caisson.disk import InputError
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
@@ -71,6 +72,18 @@ class ByHand(unittest.TestCase):
             self.assertAlmostEqual(found.tip / 2965.663e3, 1, places=6)
             walls = np.array(found[1:]) / factor
             np.testing.assert_allclose(walls, [562.248e3, 581.636e3], rtol=3e-6)
+
+    def test_unified(self) -> None:
+        """A ring of half of q_c, and tan 27.1 and 32.1 degrees over 44."""
+        method = unified.method(SKIRT, LINEAR)
+        ratio = (1 - (5.8 / 6) ** 2) ** 0.3 / 44
+        integral, q_c = LINEAR.integral(4.0), LINEAR.at(4.0)
+        for case, tangent in (("low", 0.51173), ("high", 0.62730)):
+            found = method.forces(4.0, case)
+            self.assertAlmostEqual(found.tip / (0.5 * q_c * SKIRT.tip_area), 1, 9)
+            wall = ratio * tangent * integral * np.pi
+            self.assertAlmostEqual(found.outer_friction / wall / 6, 1, 4)
+            self.assertAlmostEqual(found.inner_friction / wall / 5.8, 1, 4)
 
     def test_senders_randolph_has_two_walls(self) -> None:
         """A smooth wall has no friction, and the tip does not feel it."""

@@ -18,7 +18,7 @@ from caisson.plot import suction
 from caisson.verdict import design, limits, theory
 from caisson.verdict import suction_methods as methods
 from caisson.results import Results
-from caisson.design import seepage, senders_randolph
+from caisson.design import dnv, seepage, senders_randolph, unified
 from caisson.design import suction_installation as installation
 from caisson.design.assumed_cone import AssumedCone, Sand
 from caisson.design.cone import Profile, Skirt
@@ -50,7 +50,11 @@ CASES = {
     "high": (Caisson(*GEOMETRY, k_tan_delta=(0.8, 0.8)), True),
     "undisturbed": (UNDISTURBED, False),
 }
-ASSUMED = [f"senders_randolph_assumed_cone_{case}_Pa" for case in ("low", "high")]
+ASSUMED = [
+    column.replace("_cone", "_assumed_cone")
+    for columns in methods.CONE_COLUMNS.values()
+    for column in columns
+]
 REST = 2.0  # m, of the made-up run
 # no suction draws it in: it has no weight, and its outer wall much friction
 LIGHT: dict[str, Any] = {
@@ -64,10 +68,16 @@ LIGHT: dict[str, Any] = {
 def by_assumed_cone(h: float) -> list[float]:
     """Return the required suctions of ASSUMED (Pa)."""
     cone = AssumedCone([Sand(0, GAMMA, 0.5, None, 30)], 4.5)
-    method = senders_randolph.method(Skirt(D, 0.1, 20, 20), cone)
+    skirt = Skirt(D, 0.1, 20, 20)
+    every = (
+        dnv.method(skirt, cone, [(0.0, "sand")]),
+        senders_randolph.method(skirt, cone),
+        unified.method(skirt, cone),
+    )
     area, critical = np.pi * 5.8**2 / 4, installation.critical_suction(UNDISTURBED, h)
     return [
         installation.relieved_suction(method.forces(h, case), WEIGHT, area, critical)
+        for method in every
         for case in method.cases
     ]
 
@@ -335,7 +345,8 @@ class MadeUpRun(unittest.TestCase):
         critical = CRITICAL_SUCTIONS["Senders & Randolph (2009)"](GAMMA, h, D)
         tip = 0.2 * 4e6 * np.pi * 5.9 * 0.1
         wall = (1 - (5.8 / 6) ** 2) ** 0.3 * np.tan(np.radians(20)) * 8e6 * np.pi
-        for column, c in ((methods.CONE_LOW, 0.012), (methods.CONE_HIGH, 0.0212132)):
+        columns = methods.CONE_COLUMNS["senders_randolph"]
+        for column, c in zip(columns, (0.012, 0.0212132)):
             (s,) = answers.suctions[column]
             relieved = (tip + c * wall * 5.8) * (1 - s / critical)
             pull = WEIGHT + s * np.pi * 5.8**2 / 4

@@ -20,7 +20,7 @@ from caisson import curves, disk
 BLUE, GREEN, RED = (
     COLORS[name] for name in ("inner friction", "outer friction", "tip")
 )
-COLOR_OF = {methods.HOULSBY_BYRNE: BLUE}  # of a required suction; others are green
+COLOR_OF = {methods.HOULSBY_BYRNE: BLUE} | {m.name: m.color for m in methods.BY_CONE}
 # column of design.csv: label and line of a critical suction; a required one is a band
 CRITICAL_COLOR = "#b35806"
 ALLOWABLE, WIDE_COLOR = "allowable, the least of the limits", "#f4b6b6"
@@ -46,11 +46,16 @@ def has_line(*suctions: np.ndarray) -> bool:
     return any(np.isfinite(values).any() for values in suctions)
 
 
+def color_of(name: str) -> str:
+    """Return the color of a required suction by the name of its method."""
+    return COLOR_OF.get(name.removesuffix(theory.ASSUMED_CONE), GREEN)
+
+
 def draw_required(axes: Axes, answers: methods.Answers) -> None:
     """Draw the ranges of the required suction of the methods, in kPa, from where the
     weight no longer suffices."""
     for method in answers.required:
-        color = COLOR_OF.get(method.name, GREEN)
+        color = color_of(method.name)
         low, high = (end / 1e3 for end in method.band)
         lines = [from_rest_on(values) for values in method.cases.values()]
         bounds = [from_rest_on(values) for values in method.bounds.values()]
@@ -242,9 +247,13 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
             f"{words}: dashed low, dotted high; permeability of the plug over that"
             f" outside k_f\N{NO-BREAK SPACE}= {ratio:g}"
         )
-    if has_line(answers.suctions[methods.CONE_LOW]):
-        required += [methods.CONE_LOW, methods.CONE_HIGH]
-        lines.append("Senders & Randolph, by cone: dashed C = 0.012, dotted C = 0.021")
+    by_cone = [x for columns in methods.CONE_COLUMNS.values() for x in columns]
+    if has_line(*[answers.suctions[name] for name in by_cone]):
+        required += by_cone
+        lines.append(
+            "By cone: dashed low, dotted high; suction takes from all of them what it"
+            " takes from Senders & Randolph, ASSUMED for the others"
+        )
     if not answers.rest:
         deepest = answers.depth.max()
         lines.append(

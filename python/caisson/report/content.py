@@ -13,7 +13,7 @@ from caisson.plot import forces
 from caisson.verdict import design, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
 from caisson.verdict.limits import BOILING, LID, LIMITS
-from caisson.plot.suction import ALLOWABLE, COLOR_OF, CRITICAL, GREEN, WIDE_COLOR
+from caisson.plot.suction import ALLOWABLE, CRITICAL, WIDE_COLOR, color_of
 from caisson.results import Results, Table
 from caisson.table import by_rows
 from caisson.shown import Units, units_for
@@ -150,7 +150,7 @@ def method_suctions(run: Results) -> list[Curve]:
     answers = suction_methods.answers_of(site, depth)
     found = []
     for method in answers.required:
-        color = COLOR_OF.get(method.name, GREEN)
+        color = color_of(method.name)
         low, high = (end / 1e3 for end in method.band)
         found.append(band(f"required, {method.name}", color, low, high, depth))
         for bound in method.bounds.values():

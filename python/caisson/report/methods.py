@@ -143,7 +143,7 @@ def under_suction(
     found = [theory.Beside(suction_methods.HOULSBY_BYRNE, cases)]
     left = [1 - s / installation.critical_suction(caisson, h) for s, h in pairs]
     for answer in answers:
-        if answer.method.key == "senders_randolph" and answer.forces:
+        if answer.method in suction_methods.BY_CONE and answer.forces:
             cases = {
                 case: np.array(
                     [
@@ -269,10 +269,10 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             if suctions:
                 force = float(suctions[suction_methods.LOWER_BOUND][0])
             found.append(reasons.of_undisturbed(h, mine, force, what))
-        if left is not None and answer.method.key == "senders_randolph":
+        columns = suction_methods.CONE_COLUMNS.get(answer.method.key)
+        if left is not None and columns:
             low, high = reasons.relieved(low, left), reasons.relieved(high, left)
-            cases = suction_methods.CONE_LOW, suction_methods.CONE_HIGH
-            needed = [float(suctions[case][0]) for case in cases]
+            needed = [float(suctions[column][0]) for column in columns]
             ends = mine, needed[0], needed[1]
         elif answer.method.bound or left is not None or answer.method.key == "clay":
             continue

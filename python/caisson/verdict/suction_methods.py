@@ -2,10 +2,13 @@
 """What the design methods say about the suction of a run, over depth.
 
 In layers of sand, fits of a critical suction take the mean unit weight down to the tip.
+Of the methods from a cone, suction takes what Senders and Randolph say: they give this
+for their own forces, and it is ASSUMED for those of the others.
 In clay, and in sand and clay, the required suction is what the weight does not bear of
 the forces of jacking: flow takes nothing from sand there, although it does in sand
 above the first clay.
 """
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import nan, pi
 
@@ -20,19 +23,23 @@ from caisson.design.seepage import feld, ibsen_thilsted
 
 WEIGHT = "submerged_weight_N"  # of run.json
 HOULSBY_BYRNE = "Houlsby & Byrne (2005)"
-SENDERS_RANDOLPH = "Senders & Randolph (2009)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
 LOWER_BOUND = "houlsby_byrne_undisturbed_Pa"
 RANGE = (LOW, HIGH)
 CASES = dict(zip((*RANGE, LOWER_BOUND), (*HoulsbyByrne.cases, UNDISTURBED)))
-CONE_LOW, CONE_HIGH = "senders_randolph_cone_low_Pa", "senders_randolph_cone_high_Pa"
+BY_CONE = [m for m in theory.METHODS if m.key in ("senders_randolph", "dnv", "unified")]
+ENDS = ("low", "high")
 CRITICAL_FELD = "critical_feld_Pa"
 CRITICAL_SENDERS_RANDOLPH = "critical_senders_randolph_Pa"
 CRITICAL_IBSEN_THILSTED = "critical_ibsen_thilsted_Pa"
 PIPING = "critical_houlsby_byrne_Pa"
-REQUIRED = (*CASES, CONE_LOW, CONE_HIGH)
+CONE_COLUMNS = {
+    method.key: tuple(f"{method.key}_cone_{end}_Pa" for end in ENDS)
+    for method in BY_CONE
+}
 METHODS = (
-    *REQUIRED,
+    *CASES,
+    *(column for columns in CONE_COLUMNS.values() for column in columns),
     CRITICAL_FELD,
     CRITICAL_SENDERS_RANDOLPH,
     CRITICAL_IBSEN_THILSTED,
@@ -61,11 +68,6 @@ class Answers:
     plug: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
-    def senders_randolph(self) -> str:
-        """The name of the method from a cone."""
-        return SENDERS_RANDOLPH + (theory.ASSUMED_CONE if self.assumed else "")
-
-    @property
     def words(self) -> str:
         """Return what the lines in ground with clay are."""
         if self.in_clay is None:
@@ -84,13 +86,15 @@ class Answers:
             return [self.in_clay] if self.in_clay else []
         byrne = {case: found[column] for column, case in CASES.items()}
         bound = {UNDISTURBED: byrne.pop(UNDISTURBED)}
-        cone = {"low": found[CONE_LOW], "high": found[CONE_HIGH]}
         limit = found[CRITICAL_SENDERS_RANDOLPH]
-        both = (
-            theory.Beside(HOULSBY_BYRNE, byrne, bound, found[PIPING], may_end=True),
-            theory.Beside(self.senders_randolph, cone, {}, limit),
-        )
-        return [method for method in both if method.is_known]
+        mark = theory.ASSUMED_CONE if self.assumed else ""
+        every = [
+            theory.Beside(HOULSBY_BYRNE, byrne, bound, found[PIPING], may_end=True)
+        ]
+        for method in BY_CONE:
+            cases = dict(zip(ENDS, map(found.__getitem__, CONE_COLUMNS[method.key])))
+            every.append(theory.Beside(method.name + mark, cases, {}, limit))
+        return [method for method in every if method.is_known]
 
 
 def weight_of(scene: theory.Scene) -> float:
@@ -101,21 +105,21 @@ def weight_of(scene: theory.Scene) -> float:
 
 
 def by_cone(
-    method: Method | None, case: str, caisson: Caisson, weight: float, h: float
-) -> float:
-    """Return the suction by Senders and Randolph from a cone test, nan without one."""
+    method: Method | None, caisson: Caisson, weight: float, h: float
+) -> list[float]:
+    """Return the suctions of both cases of a method from a cone test, nan without one."""
     if method is None:
-        return nan
-    return installation.relieved_suction(
-        method.forces(h, case),
-        weight,
-        installation.plug_area(caisson),
-        installation.critical_suction(caisson, h),
-    )
+        return [nan, nan]
+    area = installation.plug_area(caisson)
+    critical = installation.critical_suction(caisson, h)
+    return [
+        installation.relieved_suction(method.forces(h, case), weight, area, critical)
+        for case in method.cases
+    ]
 
 
 def suctions_at(
-    byrne: HoulsbyByrne, cone: Method | None, weight: float, h: float
+    byrne: HoulsbyByrne, cones: Mapping[str, Method | None], weight: float, h: float
 ) -> dict[str, float]:
     """Return the suctions of all methods at an embedment, in Pa."""
     ratio = byrne.permeability_ratio
@@ -127,9 +131,9 @@ def suctions_at(
         )
         for column, case in CASES.items()
     }
+    for key, method in cones.items():
+        required |= zip(CONE_COLUMNS[key], by_cone(method, caisson, weight, h))
     return required | {
-        CONE_LOW: by_cone(cone, "low", caisson, weight, h),
-        CONE_HIGH: by_cone(cone, "high", caisson, weight, h),
         CRITICAL_FELD: feld(mean, h, diameter),
         CRITICAL_SENDERS_RANDOLPH: installation.critical_suction(caisson, h),
         CRITICAL_IBSEN_THILSTED: ibsen_thilsted(mean, h, diameter),
@@ -151,10 +155,12 @@ def rest_of(byrne: HoulsbyByrne, weight: float, deepest: float) -> dict[str, flo
     return found
 
 
-def cone_method_of(site: theory.Site, deepest: float) -> ConeMethod | None:
-    """Return Senders and Randolph from a cone, None where there is none."""
+def cone_method_of(
+    method: theory.Description, site: theory.Site, deepest: float
+) -> Method | None:
+    """Return a method from a cone, None where there is none."""
     try:
-        return theory.senders_randolph_of(site, deepest)
+        return method.of_site(site, deepest)
     except theory.NotApplicable:
         return None
 
@@ -197,8 +203,9 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
         byrne, weight = theory.houlsby_byrne_of(site, deepest), weight_of(site.scene)
     except theory.NotApplicable as reason:
         return in_clay(site, depth, str(reason))
-    cone = cone_method_of(site, deepest)
-    rows = [suctions_at(byrne, cone, weight, float(h)) for h in depth]
+    cones = {m.key: cone_method_of(m, site, deepest) for m in BY_CONE}
+    rows = [suctions_at(byrne, cones, weight, float(h)) for h in depth]
     suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}
-    assumed = cone.profile.assumed if cone else ""
+    known = [cone.profile for cone in cones.values() if isinstance(cone, ConeMethod)]
+    assumed = known[0].assumed if known else ""
     return Answers(depth, suctions, rest_of(byrne, weight, deepest), assumed=assumed)

@@ -22,6 +22,7 @@ from caisson.design import (
     layered,
     plug_stability,
     senders_randolph,
+    unified,
 )
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
@@ -270,6 +271,13 @@ def senders_randolph_of(site: Site, deepest: float) -> ConeMethod:
     return senders_randolph.method(skirt, cone_of(site, deepest))
 
 
+def unified_of(site: Site, deepest: float) -> ConeMethod:
+    """Return the unified method for a site. Raises NotApplicable."""
+    skirt = skirt_of(site)
+    only(site, deepest, "sand")
+    return unified.method(skirt, cone_of(site, deepest))
+
+
 def andersen_of(site: Site, deepest: float) -> Method:
     """Return Andersen et al. for a site. Raises NotApplicable."""
     skirt = skirt_of(site)
@@ -378,6 +386,9 @@ METHODS = (
         "#2e8b57",
         senders_randolph.CASES,
         senders_randolph_of,
+    ),
+    Description(
+        "ISO 19901-4 (unified)", "unified", "#c51b7d", unified.CASES, unified_of
     ),
     Description(
         "Andersen et al. (2008)", "andersen", "#7b3294", andersen.CASES, andersen_of
