@@ -30,6 +30,7 @@ COMPARISONS = {
     "triaxial": "triaxial",
     "cone_clay": "cone_clay",
     "cone_coefficients": "cone_in_sand",
+    "cone_density": "cone_density",
     "cone_layers": "cone_layers",
     "cone_quick": "cone_sand",
     "cone_sand": "cone_sand",

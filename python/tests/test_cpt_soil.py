@@ -306,7 +306,7 @@ class Strength(WithFiles):
         """Lines of strength and modulus, of all three estimates, and a K0 that the
         strength bears."""
         found = self.clay(lambda z: 1.5 + 1.35 * z)
-        [layer] = cone.layers_of(found, 20.0, "density")
+        [layer] = cone.layers_of(found, 20.0)
         for depth in (0.0, 1.0, 13.0, 25.0):
             stress = max((15.8e3 - 9.81e3) * depth, 1.0)
 
@@ -319,7 +319,7 @@ class Strength(WithFiles):
             self.assertAlmostEqual(at("Youngs modulus") / at("Cohesion"), 300, delta=3)
             low = 14 / 18 * at("Cohesion")
             self.assertLessEqual(abs(1 - at("K0")) * stress, 2 * low)
-        choices = cone.choices_of(found, 20.0, None, "density")
+        choices = cone.choices_of(found)
         for name, strength in (("low", 14 / 18), ("best", 1), ("high", 1.4)):
             text = str(choices[name]["Soil/Layer 1/Cohesion"])
             value = value_at(text, 10.0, 1.0)
@@ -349,7 +349,7 @@ class Above(WithFiles):
         layer = found.layers[0].layer
         self.assertGreaterEqual(found.ground.depth[layer.rows].min(), 1.5)
         self.assertIn("ASSUMED: the soil above 1.5 m", "".join(tables.remarks(found)))
-        entries = cone.layers_of(found, 6.0, "density")
+        entries = cone.layers_of(found, 6.0)
         said = [" ".join(e.remark for e in layer.entries) for layer in entries]
         self.assertIn(
             "ASSUMED above 1.5 m, where nothing was measured; FROM CPT", said[0]
@@ -362,9 +362,7 @@ class Above(WithFiles):
         found = interpretation.interpret(self.path, options(*words))
         first, second = (e.layer for e in found.layers[:2])
         self.assertEqual((first.bottom, first.kind, second.kind), (1.5, "clay", "sand"))
-        said = " ".join(
-            e.remark for e in cone.layers_of(found, 6.0, "density")[0].entries
-        )
+        said = " ".join(e.remark for e in cone.layers_of(found, 6.0)[0].entries)
         self.assertIn("FROM --above (nkt)", said)
         self.assertNotIn("FROM CPT (", said)
 

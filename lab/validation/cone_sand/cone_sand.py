@@ -29,9 +29,9 @@ STRESS_EXPONENT, DENSITY_EXPONENT = (0.40, 0.60), (2.2, 3.3)
 STEEP = "0.07 too large at 50 kPa, see doc/validation.md"
 
 
-def fits(density: float, vertical: float) -> dict[str, float]:
+def fits(density: float, vertical: float, k0: float = K0) -> dict[str, float]:
     """Return q_c (MPa) by the published fits; vertical: stress in kPa."""
-    mean = vertical * (1 + 2 * K0) / 3
+    mean = vertical * (1 + 2 * k0) / 3
     return {
         "Baldi et al., NC": 0.157 * vertical**0.55 * exp(2.41 * density),
         "Baldi et al., OC": 0.181 * mean**0.55 * exp(2.61 * density),

@@ -4,17 +4,20 @@ caisson also its scene, and a study of the three estimates beside all design met
 
     caisson cpt FILE
     caisson cpt FILE --diameter 10 --skirt 8 --wall 40mm --run
+    caisson cpt FILE --round-trip
 
 The file is GEF, AGS 4, BRO-XML, a workbook (.xlsx) or a table with the columns depth_m
 and qc_MPa and, where they were measured, fs_kPa and u2_kPa. Results go to
 results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml, and
-with --run report.html.
+with --run report.html. With --round-trip a cone is pushed into the ground of the scene,
+and round_trip.csv and .png have what it meets beside what was measured.
 """
 import argparse
+from math import inf
 from pathlib import Path
 
 from caisson import disk, suggest
-from caisson.commands import cpt_page
+from caisson.commands import cpt_page, round_trip
 from caisson.design import cone_picture, cone_texts, interpretation
 from caisson.paths import RESULTS, scene_or_study, short
 from caisson.study import check_is_own, file_name
@@ -37,6 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--overwrite", action="store_true", help="replace files that were changed")
     add("--run", action="store_true", help="run the study of a caisson")
+    text = "push a cone into the ground found, and compare it with the test"
+    add("--round-trip", action="store_true", help=text)
     text = "runs at a time, default: the fastest"
     add("--jobs", type=whole_number, metavar="N", help=text)
     suggest.add_caisson_arguments(parser, required=False)
@@ -100,8 +105,11 @@ def main(options: argparse.Namespace) -> int:
     if not has_caisson:
         print(cone_texts.text_of_test(found))
     tip = suggest.end_of(options) if has_caisson else None
+    cone_end = min(deepest or inf, float(found.ground.depth[-1]))
     with disk.all_or_none(options.overwrite):
         files = write(found, directory, tip, options.location)
+        if options.round_trip:
+            files.append(round_trip.write_scene(found, cone_end, directory))
         if has_caisson:
             options.file, options.study = directory / SCENE, directory / STUDY
             options.layer = options.sand = options.density = None
@@ -109,6 +117,8 @@ def main(options: argparse.Namespace) -> int:
             suggest.write(options)  # which prints the table
             files += [options.file, options.study]
     report(files)
+    if options.round_trip:
+        report(round_trip.run(found, directory))
     if not options.run:
         return 0
     study = cpt_page.study_of(options.study, directory)

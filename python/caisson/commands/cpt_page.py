@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from caisson.commands import round_trip
 from caisson.template import picture_of, template
 from caisson import disk, plot, report, study_command
 from caisson.design import cone_texts
@@ -137,6 +138,7 @@ def write(
         raise ResultsError(f"no run of {file} is complete: see their logs")
     answers = methods.answers_of(outcomes)
     results = directory / file_name(study.id)
+    cone = round_trip.known(test, directory)
     css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     disk.write(
@@ -152,6 +154,9 @@ def write(
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),
             methods=picture_of(results / "methods.png"),
+            cone=cone and cone.words(),
+            cone_picture=cone
+            and picture_of(round_trip.write(cone, test, directory)[1]),
             observed="" if outcomes.column == TOTAL else words_of(outcomes.column),
             fan=picture_of(results / "fan.png"),
             reports=reports_of(outcomes, directory),

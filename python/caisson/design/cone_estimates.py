@@ -6,6 +6,10 @@ are about one standard deviation away: the quantiles of 16 and 84 % of the rows,
 scatter of the correlation, as the root of the sum of their squares. They are estimates
 of the mean of a layer from one test, not characteristic values of a code.
 
+Density and modulus of sand answer the cone test together (caisson.design.own_cone): for
+low and high estimate it is the quantile of its rows about the computed resistance, and
+the error of a cone.
+
 The strength of clay is a straight line over the depth where the rows of a layer are
 nearer to one than to one value; then low, best and high are lines, too, and the
 quantiles are those of the rows as shares of the line. The line has the least sum of
@@ -15,11 +19,11 @@ SI units; relative density is a share of 1, angles are in degrees.
 """
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import hypot, inf
+from math import exp, hypot, inf
 
 import numpy as np
 
-from caisson.design import correlations
+from caisson.design import correlations, own_cone
 from caisson.design.cone_layers import Layer
 from caisson.design.correlations import (
     RESTS_OF_CLAY,
@@ -51,7 +55,7 @@ LEAST_SHARE, NEAREST, TINY = 0.05, 1e-3, 1e-3  # of the middle; of a row; Pa
 ROUNDS_OF_LINE = 20
 # what a kind of soil has
 HAS = {
-    SAND: (DENSITY, ANGLE, MODULUS, REFERENCE, K0),
+    SAND: (DENSITY, ANGLE, REFERENCE, K0),
     SILT: (ANGLE, MODULUS, STRENGTH, K0),
     CLAY: (MODULUS, STRENGTH, K0),
 }
@@ -157,33 +161,20 @@ def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     return CLAY_RATIOS[end + 1] * strength
 
 
-def growth_of(ground: Ground, names: dict[str, str]) -> np.ndarray:
-    """Return the stiffness of sand at rest [n] over that at a mean effective stress of
-    100 kPa, if it grows with the square root of the stress."""
-    k0 = correlations.at_rest(correlations.angles_of(ground, names, BEST))
-    return np.sqrt(correlations.mean_stress(ground, k0) / correlations.ATMOSPHERE)
-
-
-def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa."""
-    return correlations.moduli_of(ground, names, end) / growth_of(ground, names)
-
-
 # ground, names of correlations and an end to the values of a quantity [n]; K_0 of sand
 # is high where the friction angle is low
 OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
     DENSITY: correlations.densities_of,
     ANGLE: correlations.angles_of,
-    MODULUS: correlations.moduli_of,
-    REFERENCE: reference_moduli,
+    MODULUS: clay_moduli,
+    REFERENCE: correlations.reference_moduli,
     STRENGTH: correlations.strengths_of,
     K0: lambda g, n, end: correlations.at_rest(correlations.angles_of(g, n, -end)),
 }
-OF_SILT = OF_SAND | {MODULUS: clay_moduli}
-OF_CLAY = OF_SILT | {
+OF_CLAY = OF_SAND | {
     K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
-FUNCTIONS = {SAND: OF_SAND, SILT: OF_SILT, CLAY: OF_CLAY}
+FUNCTIONS = {SAND: OF_SAND, SILT: OF_SAND, CLAY: OF_CLAY}
 OF_STRENGTH = (STRENGTH, MODULUS)  # grow together
 
 
@@ -212,5 +203,52 @@ def estimates_of(
             limits = LIMITS.get(name, ANY)
             found_here = combined(best, low, high, limits)
             values[name] = replace(found_here, growth=growth)
+        if layer.kind == SAND and names[MODULUS] == correlations.OWN_CONE:
+            values |= answering(ground, layer, values)
         found.append(Estimates(layer, values))
     return found
+
+
+def cone_rows(
+    ground: Ground, layer: Layer, values: Mapping[str, Estimate], growth: float
+) -> own_cone.Rows:
+    """Return the rows of a layer of sand that count for its own cone. growth: of the
+    modulus."""
+    rows = own_cone.rows_of(layer.rows, ground.depth)
+    stress = ground.stress[rows] * (1 + 2 * values[K0].best) / 3
+    share = along(ground, layer, growth)[rows]
+    return own_cone.Rows(stress, ground.resistance[rows], share)
+
+
+def answer_of(ground: Ground, e: Estimates) -> float:
+    """Return the resistance that a computed cone meets in a layer of sand over the
+    measured one."""
+    density, modulus = e.values[DENSITY].best, e.values[REFERENCE]
+    rows = cone_rows(ground, e.layer, e.values, modulus.growth)
+    ratio = modulus.best / correlations.reference_modulus(density)
+    return exp(rows.middle(density, float(ratio)))
+
+
+def answering(
+    ground: Ground, layer: Layer, values: Mapping[str, Estimate]
+) -> dict[str, Estimate]:
+    """Return density and modulus of sand with which a computed cone meets the measured
+    resistance. values: of the correlations."""
+    density = values[DENSITY].best
+    rows = cone_rows(ground, layer, values, 0.0)
+    ratios = np.ones(len(ground.depth))
+    counts = own_cone.rows_of(layer.rows, ground.depth)
+    ratios[counts] = own_cone.ratios_of_rows(density, rows)
+    growth = growth_in(ground, replace(layer, rows=counts), ratios)
+    rows = cone_rows(ground, layer, values, growth)
+    best = own_cone.fitted(density, rows)
+    scatter = np.quantile(-rows.excess(*best), QUANTILES)
+    shares = [hypot(float(share), own_cone.ERROR_OF_CONE) for share in scatter]
+    low, high = (
+        own_cone.changed(best, rows.times(exp(sign * share)))
+        for sign, share in zip((-1, 1), shares)
+    )
+    return {
+        DENSITY: Estimate(low.density, best.density, high.density),
+        REFERENCE: Estimate(low.modulus, best.modulus, high.modulus, growth),
+    }

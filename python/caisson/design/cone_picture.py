@@ -18,7 +18,6 @@ from caisson.design.cone_estimates import (
     REFERENCE,
     RESISTANCE,
     Estimates,
-    growth_of,
 )
 from caisson.design.cone_rules import ASSUMED
 from caisson.design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
@@ -34,14 +33,12 @@ WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides the
 
 class Panel(NamedTuple):
     """A panel: title, profile [n] in the unit of the title, and the estimate to be
-    drawn with its scale, "" for none. growth: what a modulus at 100 kPa is multiplied
-    with at each depth [n], where a layer has one."""
+    drawn with its scale, "" for none."""
 
     title: str
     profile: np.ndarray
     estimate: str = ""
     scale: float = 1.0
-    growth: np.ndarray | None = None
 
 
 def panels_of(
@@ -64,10 +61,10 @@ def panels_of(
     if ANGLE in has:
         angle = correlations.angles_of(ground, names, BEST)
         found.append(Panel("Friction angle (°)", np.where(sand, angle, np.nan), ANGLE))
-    modulus = correlations.moduli_of(ground, names, BEST) * 1e-6
-    shown = np.where(sand, modulus, np.nan)
-    growth = growth_of(ground, names)
-    found.append(Panel("$E$ (MPa)", shown, MODULUS, 1e-6, growth))
+    nothing = np.full(len(ground.depth), np.nan)
+    for name, head in ((REFERENCE, "$E$ at 100 kPa (MPa)"), (MODULUS, "$E$ (MPa)")):
+        if name in has:
+            found.append(Panel(head, nothing, name, 1e-6))
     if STRENGTH in has:
         fine = rows_with(every, STRENGTH, len(ground.depth))
         strength = correlations.strengths_of(ground, names, BEST) * 1e-3
@@ -104,21 +101,14 @@ def draw_layers(axes: Axes, every: Sequence[Estimates]) -> None:
             )
 
 
-def curves_of(
-    panel: Panel, depth: np.ndarray, e: Estimates
-) -> tuple[np.ndarray, list[np.ndarray]] | None:
+def curves_of(panel: Panel, e: Estimates) -> tuple[np.ndarray, list[np.ndarray]] | None:
     """Return depths, and low, best and high there, of what a panel shows of a layer;
     None where it has no such estimate."""
     where = np.array([e.layer.top, e.layer.bottom])
-    estimate, factor = e.values.get(panel.estimate), np.full(2, panel.scale)
-    if panel.growth is not None and REFERENCE in e.values:
-        inside = (depth > e.layer.top) & (depth < e.layer.bottom)
-        where = np.concatenate([where[:1], depth[inside], where[1:]])
-        estimate = e.values[REFERENCE]
-        factor = panel.scale * np.interp(where, depth, panel.growth)
+    estimate = e.values.get(panel.estimate)
     if estimate is None:
         return None
-    factor = factor * (1 + estimate.growth * (where - e.layer.top))
+    factor = panel.scale * (1 + estimate.growth * (where - e.layer.top))
     return where, [estimate.at(end) * factor for end in ENDS]
 
 
@@ -129,7 +119,7 @@ def draw_panel(
     axes.plot(panel.profile, depth, color=PROFILE, linewidth=0.9, zorder=3)
     largest = 0.0
     for e in every:
-        curves = curves_of(panel, depth, e)
+        curves = curves_of(panel, e)
         if curves is None:
             continue
         where, (low, best, high) = curves

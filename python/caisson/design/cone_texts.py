@@ -11,14 +11,19 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, CLAY_RATIOS, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
+from caisson.design.cone_estimates import answer_of
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
+from caisson.design.correlations import BEST, OWN_CONE, densities_of
 from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
+from caisson.design.own_cone import MOST_RATIO
 
 DIGITS = 2  # of a small value, at least
+LEAST_CHANGE = 0.05  # of a relative density that is told
+DOES_NOT_ANSWER = 0.1  # of the resistance of its own cone
 
 
 class Shown(NamedTuple):
@@ -142,8 +147,8 @@ def sources(test: Interpretation) -> list[str]:
     kinds = {e.layer.kind for e in test.layers}
     found = [f"{WEIGHT}: {test.weight}"]
     for c in EVERY:
-        is_of_sand = c.quantity != MODULUS or SAND in kinds
-        if test.names[c.quantity] == c.name and c.quantity in have and is_of_sand:
+        is_there = c.quantity in have if c.quantity != MODULUS else SAND in kinds
+        if test.names[c.quantity] == c.name and is_there:
             factor = test.ground.cone_factor
             name = f"{c.name}, N_kt = {factor:g}" if c.quantity == STRENGTH else c.name
             found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
@@ -156,6 +161,30 @@ def sources(test: Interpretation) -> list[str]:
         )
     if any(x.growth for e in test.layers for x in e.values.values()):
         found.append("d is the depth below the mudline in m")
+    return found
+
+
+def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
+    """Return where a layer of sand needs another density to answer its cone test, and
+    where it does not answer it."""
+    found = list[str]()
+    if e.layer.kind != SAND or test.names[MODULUS] != OWN_CONE:
+        return found
+    given = densities_of(test.ground, test.names, BEST)
+    by_correlation = test.ground.median(given, e.layer.rows)
+    if abs(by_correlation - e.values[DENSITY].best) > LEAST_CHANGE:
+        found.append(
+            f"layer {number}: with a modulus within a factor of {MOST_RATIO:g} of that"
+            " by density it does not answer its cone; its relative density is"
+            f" {100 * e.values[DENSITY].best:.0f} %, and not the"
+            f" {100 * by_correlation:.0f} % of {test.names[DENSITY]}"
+        )
+    ratio = answer_of(test.ground, e)
+    if abs(ratio - 1) > DOES_NOT_ANSWER:
+        found.append(
+            f"layer {number}: no sand of this law answers its cone; a computed cone"
+            f" meets {ratio:.2f} times the measured resistance"
+        )
     return found
 
 
@@ -187,6 +216,7 @@ def remarks_on(test: Interpretation, number: int, e: Estimates) -> list[str]:
             " layers"
         )
     found += signs(ground, number, e.layer)
+    found += on_its_cone(test, number, e)
     if e.layer.kind != SAND:
         found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
     if STRENGTH in e.values and e.values[STRENGTH].low <= 0:

@@ -16,30 +16,27 @@ Relative density D_r of silica sand
         Baldi et al. (1986), 4th Int. Geotech. Seminar, Singapore; normally consolidated
         Ticino sand
     Scatter: a factor of 1.3 in q_c. No source states it: it is the difference of the
-    two formulas.
+    two formulas. It does not count with own-cone, which makes up for the density.
 
 Friction angle of sand, in degrees
-    bolton-1986-tip    phi of bolton-1986 at the mean stress sqrt(q_t sigma'_v) in the
-        place of sigma'_m: sand under a tip fails under a stress between that of the
-        tip and that of the ground, and the more it is pressed the less it dilates.
-        The geometric mean is that of Randolph, Dolwin & Beck (1994), Geotechnique 44,
-        427, for piles; quoted, and unconfirmed
-    kulhawy-mayne-1990 phi = 17.6 + 11 log10(q_t/p_a / sqrt(sigma'_v/p_a))
-        Kulhawy & Mayne (1990), EPRI EL-6800; clean sands in chambers; a scatter of 2.8
-        degrees, which is quoted and unconfirmed
-    bolton-1986        phi = 33 + 3 I_R, I_R = D_r (10 - ln sigma'_m) - 1, in kPa
-        I_R from 0 to 4; Bolton (1986), doi 10.1680/geot.1986.36.1.65; quartz sand in
-        triaxial compression; scatter 2 degrees, and that of D_r
+    bolton-1986-tip    phi = 33 + 3 (D_r (10 - ln p) - 1) with p = sqrt(q_t sigma'_v)
+        in kPa, 33 to 45; Bolton (1986), doi 10.1680/geot.1986.36.1.65; quartz
+        sand in triaxial compression; scatter 2 degrees, and that of D_r. Sand under a
+        tip fails under a stress between that of the tip and that of the ground; the
+        geometric mean is that of Randolph, Dolwin & Beck (1994), Geotechnique 44, 427,
+        for piles; quoted, and unconfirmed. From it follows K_0; the law of a scene
+        finds the angle of each point itself
 
 Young's modulus of sand
-    schmertmann-1978   E = 2.5 q_c, from 2.0 to 3.5
-        Schmertmann, Hartman & Brown (1978), J. Geotech. Eng. Div. 104: 2.5 under round
-        and 3.5 under long footings; the 2.0 of Schmertmann (1970) is quoted and
-        unconfirmed
-    robertson-2009     E = 0.015 10^(0.55 I_c + 1.68) (q_t - sigma_v)
-        Robertson (2009), doi 10.1139/T09-065; young uncemented silica sand at strains
-        of about 0.1 %, small for a skirt that passes. The source states no scatter; a
-        factor of 1.5 is assumed
+    own-cone           E for which a cone that the program pushes into the ground of the
+        scene meets the measured resistance (caisson.design.own_cone)
+    brinkgreve-2010    E = 60 MPa D_r sqrt(sigma'_m/p_a), the E_50 of a triaxial test
+        Brinkgreve, Engin & Engin (2010), Numerical Methods in Geotechnical Engineering,
+        p. 137; read in a published program, not in the paper. The exponent of the
+        stress is that of the law; the source has 0.7 - D_r/3.2. It states no scatter; a
+        factor of 1.5 is assumed. A modulus in proportion to q_c would count the density
+        twice, as the strength has it, too: the cone would then find up to twice the
+        resistance in dense sand
 
 Undrained strength of clay and silt
     nkt                s_u = (q_t - sigma_v)/N_kt, N_kt = 14, from 10 to 18; another
@@ -55,16 +52,17 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.design.density import bolton_angle, density_of_resistance
-from caisson.design.ground import ATMOSPHERE, Ground
+from caisson.design.density import reference_modulus
+from caisson.design.ground import Ground
 
 DENSITY, ANGLE = "relative density", "friction angle"
 MODULUS, STRENGTH = "Young's modulus", "undrained strength"
 SCATTER_OF_RESISTANCE = 1.3  # a factor of q_c, for D_r
-SCATTER_OF_ANGLE = 2.8  # degrees, of Kulhawy & Mayne
-SCATTER_OF_BOLTON = 2.0
+SCATTER_OF_BOLTON = 2.0  # degrees
 CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high strength
-MODULUS_RATIOS = (2.0, 2.5, 3.5)
 SCATTER_OF_MODULUS = 1.5  # a factor
+OWN_CONE, BY_DENSITY = "own-cone", "brinkgreve-2010"
+UNCALIBRATED = (BY_DENSITY,)
 ANGLES = 25.0, 50.0  # between which an angle is held
 # between which K_0 = 0.1 (q_t - sigma_v)/sigma'_v of clay (Kulhawy & Mayne 1990) is
 RESTS_OF_CLAY = 0.4, 1.5
@@ -86,7 +84,6 @@ class Correlation(NamedTuple):
 
 LAB = "silica sand, vertical effective stress 50 to 400 kPa"
 AT_TIP = "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)"
-SMALL = "young uncemented silica sand, strains of about 0.1 %"
 EVERY = [
     Correlation(quantity, name, source, holds)
     for quantity, name, source, holds in (
@@ -103,15 +100,18 @@ EVERY = [
             AT_TIP,
             "quartz sand under a tip, from relative density",
         ),
-        (ANGLE, "kulhawy-mayne-1990", "Kulhawy & Mayne (1990)", "clean silica sand"),
-        (ANGLE, "bolton-1986", "Bolton (1986)", "quartz sand, from relative density"),
         (
             MODULUS,
-            "schmertmann-1978",
-            "Schmertmann, Hartman & Brown (1978)",
-            "sand under footings",
+            OWN_CONE,
+            "cones computed with the program",
+            "sand by density and stress, more than 20 cone diameters deep",
         ),
-        (MODULUS, "robertson-2009", "Robertson (2009)", SMALL),
+        (
+            MODULUS,
+            BY_DENSITY,
+            "Brinkgreve, Engin & Engin (2010)",
+            "silica sand, half of its strength mobilized",
+        ),
         (
             STRENGTH,
             "nkt",
@@ -155,30 +155,19 @@ def limited(density: np.ndarray) -> np.ndarray:
 DENSITIES: dict[str, Density] = {"jamiolkowski-2003": jamiolkowski, "baldi-1986": baldi}
 
 
-def kulhawy_mayne(ground: Ground, end: int) -> np.ndarray:
-    """Return phi [n] of Kulhawy & Mayne (1990)."""
-    ratio = ground.tip / ATMOSPHERE / np.sqrt(ground.stress / ATMOSPHERE)
-    angle = 17.6 + 11 * np.log10(np.maximum(ratio, 1e-9))
-    return np.clip(angle + end * SCATTER_OF_ANGLE, *ANGLES)
-
-
-def stress_at_tip(ground: Ground, _: np.ndarray) -> np.ndarray:
+def stress_at_tip(ground: Ground) -> np.ndarray:
     """Return the mean stress (Pa) [n] under which sand fails at a tip."""
     return np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
 
 
-STRESSES = {"bolton-1986": mean_stress, "bolton-1986-tip": stress_at_tip}
-
-
-def bolton(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return phi [n] of Bolton (1986); K_0 = 1 - sin phi is found with it."""
-    stress_of, density = STRESSES[names[ANGLE]], DENSITIES[names[DENSITY]]
+def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return phi [n] of Bolton (1986) under a tip, found with K_0 = 1 - sin phi."""
+    density, stress = DENSITIES[names[DENSITY]], stress_at_tip(ground)
     k0 = np.full(len(ground.depth), 0.5)
     for _ in range(ROUNDS):
-        stress = stress_of(ground, k0)
         angle = bolton_angle(density(ground, k0, BEST), stress)
         k0 = at_rest(angle)
-    other = bolton_angle(density(ground, k0, end), stress_of(ground, k0))
+    other = bolton_angle(density(ground, k0, end), stress)
     angle = angle + end * np.hypot(SCATTER_OF_BOLTON, other - angle)
     return np.clip(angle, *ANGLES)
 
@@ -188,25 +177,16 @@ def at_rest(angle: np.ndarray) -> np.ndarray:
     return 1 - np.sin(np.radians(angle))
 
 
-def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return phi [n] by the correlation chosen."""
-    if names[ANGLE] in STRESSES:
-        return bolton(ground, names, end)
-    return kulhawy_mayne(ground, end)
-
-
 def densities_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     """Return D_r [n] by the correlation chosen, with the K_0 of the best angle."""
     k0 = at_rest(angles_of(ground, names, BEST))
     return DENSITIES[names[DENSITY]](ground, k0, end)
 
 
-def moduli_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return E (Pa) [n] by the correlation chosen."""
-    if names[MODULUS] == "robertson-2009":
-        ratio = 0.015 * 10 ** (0.55 * ground.index + 1.68)
-        return ratio * ground.net * SCATTER_OF_MODULUS**end
-    return MODULUS_RATIOS[end + 1] * ground.resistance
+def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
+    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa."""
+    density = densities_of(ground, names, BEST)
+    return np.asarray(reference_modulus(density) * SCATTER_OF_MODULUS**end)
 
 
 def strengths_of(ground: Ground, _: dict[str, str], end: int) -> np.ndarray:

@@ -10,6 +10,11 @@ Bolton (1986), doi 10.1680/geot.1986.36.1.65, with the mean stress p' in kPa:
 
     phi = phi_c + 3 I_R,    I_R = D_r (10 - ln p') - 1, from 0 to 4.
 
+Brinkgreve, Engin & Engin (2010), Numerical Methods in Geotechnical Engineering, p. 137,
+the secant modulus E_50 of a drained triaxial test under p_a:
+
+    E_50 = 60 MPa D_r.
+
 Under a tip, p' = sqrt(q_c sigma'_v) (Randolph, Dolwin & Beck 1994; quoted, and
 unconfirmed). Formulas are as two published programs and manuals quote them.
 
@@ -23,6 +28,7 @@ from caisson.units import ATMOSPHERE
 
 CRITICAL_ANGLE = 33.0  # of quartz
 MOST_INDEX = 4.0  # of I_R
+LEAST_OF_MODULUS = 0.05  # D_r below which the modulus falls no further: 3 MPa
 ROUNDS = 40  # of D_r and the stress at the tip; each leaves a third of the error
 
 
@@ -37,6 +43,11 @@ def cone_resistance(density: Any, mean_stress: Any) -> Any:
     """Return q_c by Jamiolkowski et al. (Pa)."""
     stress = (mean_stress / ATMOSPHERE) ** 0.46
     return 24.94 * ATMOSPHERE * stress * np.exp(2.96 * density)
+
+
+def reference_modulus(density: Any) -> Any:
+    """Return E_50 by Brinkgreve et al. (Pa)."""
+    return 60e6 * np.maximum(density, LEAST_OF_MODULUS)
 
 
 def bolton_angle(density: Any, mean_stress: Any, critical: Any = CRITICAL_ANGLE) -> Any:

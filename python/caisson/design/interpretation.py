@@ -99,6 +99,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = f"one of {', '.join(BY_NAME)}; give one option for each"
     every: dict[str, Any] = {"action": "append", "default": []}
     add("--correlation", choices=BY_NAME, metavar="NAME", help=text, **every)
+    names = " and ".join(correlations.UNCALIBRATED)
+    text = f"by {names}, in place of what answers the cone"
+    add("--uncalibrated", action="store_true", help=text)
     text = (
         "sand, silt or clay: of all the soil, as needed where the test has no sleeve"
         " friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option for each"
@@ -123,8 +126,6 @@ def check(file: Path, test: Test, options: argparse.Namespace) -> None:
                 f"{file} has no sleeve friction (fs_kPa), from which the kind of soil"
                 f" and its unit weight follow; give it, or {' and '.join(missing)}"
             )
-        if "robertson-2009" in options.correlation:
-            raise InputError(f"robertson-2009 needs a sleeve friction, not in {file}")
     if weight is not None and not WATER < 1e3 * weight < 25e3:
         raise InputError(
             f"--unit-weight {weight:g}: give the unit weight of the wet soil in kN/m3,"
@@ -173,7 +174,8 @@ def interpret(
     weight = options.unit_weight
     ground = ground_of(test, area_ratio, weight and 1e3 * weight)
     ground = replace(ground, cone_factor=options.nkt or CONE_FACTOR)
-    names = correlations.chosen(options.correlation)
+    given = correlations.UNCALIBRATED if options.uncalibrated else ()
+    names = correlations.chosen([*options.correlation, *given])
     tops = tops_for(ground, options)
     try:
         found = layers.layers_of(ground, tops, given_kinds(ground, tops, options.soil))

@@ -101,10 +101,10 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
     add("--weight", type=number("N"), metavar="N", help=text)
     add("--water-depth", type=number("m"), metavar="M", help="bounds the suction")
     text = (
-        "of sand given by its density or a cone test: by density and stress (default),"
-        " hypoplastic, or with one friction angle (cone test only)"
+        "of sand given by its density: by density and stress (default), or hypoplastic;"
+        " a cone test takes the first, which answers it"
     )
-    add("--law", choices=(*sand.LAWS, sand.ONE_ANGLE), help=text)
+    add("--law", choices=sand.LAWS, help=text)
     add("--error", type=percent, choices=sizes.LEVELS, default=5, help="wanted, in %%")
 
 
@@ -122,9 +122,10 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
             "give the soil: either --layer, or a cone test by --cpt, or sand by --sand"
             " or --density"
         )
-    if options.law == sand.ONE_ANGLE and not options.cpt:
+    if options.cpt and sand.LAWS.get(options.law) == density_law.HYPOPLASTIC:
         raise SuggestError(
-            f"--law {options.law} is for a cone test, --cpt; give the angle by --layer"
+            "--law hypoplastic: its ground answers a cone with 0.4 of the resistance"
+            " measured; leave --law out, and take the law by density and stress"
         )
     if not options.cpt:
         cone_options.how_of(options).refuse()
@@ -249,7 +250,7 @@ def end_of(options: argparse.Namespace) -> float:
 
 
 def law_of(options: argparse.Namespace) -> str:
-    """Return the law of sand, a name of sand.LAWS or sand.ONE_ANGLE."""
+    """Return the law of sand, a name of sand.LAWS."""
     return options.law or next(iter(sand.LAWS))
 
 
@@ -281,10 +282,7 @@ def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
         scene=os.path.relpath(options.file, options.study.parent),
         cone=os.path.relpath(table_of_cone(options), options.study.parent),
         name=options.cpt.name,
-        follows=options.wall_friction is None and law_of(options) not in sand.LAWS,
-        choices=cone.choices_of(
-            found, end_of(options), options.wall_friction, law_of(options)
-        ),
+        choices=cone.choices_of(found),
     )
 
 
@@ -487,10 +485,7 @@ def ends_of(
     known: the units of entries; found: a cone test. Raises SuggestError."""
     if found is None:
         return band.of_texts(texts_of(options), known, law_of(options), options)
-    choices = cone.choices_of(
-        found, end_of(options), options.wall_friction, law_of(options)
-    )
-    return band.of_choices(layers, choices)
+    return band.of_choices(layers, cone.choices_of(found))
 
 
 def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
@@ -504,7 +499,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
         print(cone_texts.text_of_test(found))
-        layers = cone.layers_of(found, end_of(options), law_of(options))
+        layers = cone.layers_of(found, end_of(options))
         if warning := cone.end_of_test(found, end_of(options)):
             print(warning)
     else:

@@ -7,10 +7,10 @@ from caisson.design.cone_texts import SHOWN, text_of
 from caisson.units import QUARTZ_DENSITY
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import ASSUMED, BY_STRESS
+from caisson.suggest.soil import ASSUMED
 from caisson.suggest.walls import ADHESION_OF_CLAY
 from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
-from caisson.design.correlations import ANGLE, DENSITY, MODULUS, STRENGTH
+from caisson.design.correlations import DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
 from caisson.design.interpretation import Interpretation
@@ -102,30 +102,26 @@ def value_of(e: Estimates, name: str, end: str) -> str:
     return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*d"
 
 
-def sand_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
+def sand_of(found: Interpretation, e: Estimates) -> list[Entry]:
     """Return the entries of sand whose strength follows from its density. Relative
-    density, unit weight and, if the law has one, modulus are those of the test."""
-    name = sand.LAWS[law]
+    density, unit weight and modulus are those of the test."""
     share = number(e.values[DENSITY].best)
     density = Entry(density_law.DENSITY, share, remark(found, e, DENSITY))
-    known = [Entry("K0", number(e.values[K0].best), " # FROM CPT")]
-    if name == density_law.LAW:
-        void_ratio = e.porosity() / (1 - e.porosity())
-        densest, loosest = sand.KARLSRUHE
-        shift = void_ratio - loosest + float(share) * (loosest - densest)
-        why = (
-            f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
-        )
-        known += [
-            Entry(density_law.DENSEST, number(densest + shift), why),
-            Entry(density_law.LOOSEST, number(loosest + shift), why),
-            Entry(
-                density_law.MODULUS,
-                number(e.values[REFERENCE].best),
-                remark(found, e, REFERENCE),
-            ),
-        ]
-    return sand.entries_of(density, name, known)
+    void_ratio = e.porosity() / (1 - e.porosity())
+    densest, loosest = sand.KARLSRUHE
+    shift = void_ratio - loosest + float(share) * (loosest - densest)
+    why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
+    known = [
+        Entry("K0", number(e.values[K0].best), " # FROM CPT"),
+        Entry(density_law.DENSEST, number(densest + shift), why),
+        Entry(density_law.LOOSEST, number(loosest + shift), why),
+        Entry(
+            density_law.MODULUS,
+            value_of(e, REFERENCE, "best"),
+            remark(found, e, REFERENCE),
+        ),
+    ]
+    return sand.entries_of(density, density_law.LAW, known)
 
 
 def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
@@ -143,22 +139,8 @@ def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
 
 
 def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return law, strength and stiffness of a layer with one friction angle; clay, and
-    silt below the skirt, are undrained."""
-    if e.layer.kind == SAND:
-        return [
-            Entry("Law", BY_STRESS),
-            Entry(
-                "Friction angle", number(e.values[ANGLE].best), remark(found, e, ANGLE)
-            ),
-            Entry("Cohesion", "0", ASSUMPTION),
-            Entry(
-                "Youngs modulus",
-                number(e.values[REFERENCE].best),
-                remark(found, e, REFERENCE),
-            ),
-            Entry("Poisson ratio", ASSUMED["Poisson ratio"], ASSUMPTION),
-        ]
+    """Return law, strength and stiffness of clay, and of silt below the skirt, which
+    are undrained."""
     return [
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
@@ -171,10 +153,10 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
     ]
 
 
-def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
+def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
     """Return the entries of a layer with the best estimates."""
-    if e.layer.kind == SAND and law in sand.LAWS:
-        return sand_of(found, e, law)
+    if e.layer.kind == SAND:
+        return sand_of(found, e)
     return [
         *strength_of(found, e),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
@@ -183,12 +165,12 @@ def entries_of(found: Interpretation, e: Estimates, law: str) -> list[Entry]:
     ]
 
 
-def layers_of(found: Interpretation, end: float, law: str) -> list[Layer]:
-    """Return the layers of a scene whose skirt ends at a depth (m). law: of sand, a
-    name of sand.LAWS or sand.ONE_ANGLE. Raises SuggestError."""
+def layers_of(found: Interpretation, end: float) -> list[Layer]:
+    """Return the layers of a scene whose skirt ends at a depth (m). Raises
+    SuggestError."""
     refuse_silt(found, end)
     refuse_no_strength(found)
-    return [Layer(e.layer.top, entries_of(found, e, law)) for e in found.layers]
+    return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
 
 
 def plain(text: str) -> float | str:
@@ -199,34 +181,20 @@ def plain(text: str) -> float | str:
         return text
 
 
-def choices_of(
-    found: Interpretation, end: float, wall_friction: float | None, law: str
-) -> dict[str, dict[str, float | str]]:
+def choices_of(found: Interpretation) -> dict[str, dict[str, float | str]]:
     """Return the entries of the low, the best and the high estimate: density or
-    strength, and stiffness of all layers together, and the friction of the walls where
-    it follows from a friction angle."""
+    strength, and stiffness of all layers together."""
     choices: dict[str, dict[str, float | str]] = {}
     for name in ENDS:
         entries: dict[str, Any] = {}
-        angles = []
         for place, e in enumerate(found.layers, 1):
             head = f"Soil/Layer {place}"
-            if e.layer.kind == SAND and law in sand.LAWS:
+            if e.layer.kind == SAND:
                 share = float(number(e.values[DENSITY].at(name)))
                 entries[f"{head}/{density_law.DENSITY}"] = share
-                if sand.LAWS[law] == density_law.HYPOPLASTIC:
-                    continue  # its stiffness follows, too
-            elif e.layer.kind == SAND:
-                angle = float(number(e.values[ANGLE].at(name)))
-                entries[f"{head}/Friction angle"] = angle
-                angles += [angle] if e.layer.top < end else []
             else:
                 entries[f"{head}/Cohesion"] = plain(value_of(e, STRENGTH, name))
             quantity = REFERENCE if e.layer.kind == SAND else MODULUS
             entries[f"{head}/Youngs modulus"] = plain(value_of(e, quantity, name))
-        if wall_friction is None and angles:
-            for side in ("outer", "inner"):
-                entry = f"Rigid body/Friction angle of the {side} wall"
-                entries[entry] = float(f"{2 / 3 * min(angles):.3g}")
         choices[name] = entries
     return choices

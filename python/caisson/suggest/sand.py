@@ -2,8 +2,8 @@
 """Entries of sand that is given by its density: a word, or the relative density.
 
 What is not given is that of quartz sand of the sea bed, with its source in a few words.
-The modulus is that of the cone resistance which the design methods assume for this
-density (caisson.design.density), so that scene and methods have the same sand.
+The modulus is one of triaxial tests on sand of this density (caisson.design.density):
+one in proportion to the cone resistance would count the density twice.
 """
 import difflib
 import math
@@ -13,12 +13,11 @@ from collections.abc import Iterable, Mapping
 from caisson import density_law as names
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
-from caisson.design.correlations import MODULUS_RATIOS
 from caisson.design.density import (
     ATMOSPHERE,
     CRITICAL_ANGLE,
-    cone_resistance,
     density_of_angle,
+    reference_modulus,
 )
 
 # relative density in the middle of a class, and its ends in % (ISO 14688-2)
@@ -35,11 +34,10 @@ LAW_REMARKS = {
     names.LAW: " # phi and psi of each point follow from both (Bolton 1986)",
     names.HYPOPLASTIC: " # of Karlsruhe sand; its tip is too strong if very dense",
 }
-ONE_ANGLE = "angle"  # the choice of a law with one friction angle, from a cone test
 SAND = "Sand"  # in place of an entry: one of WORDS
 KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
 OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
-OF_CONE = "2.5 q_c (Schmertmann 1978), q_c by Jamiolkowski (2003)"
+OF_DENSITY = "60 MPa D_r (Brinkgreve, Engin & Engin 2010)"
 # of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
 WALL_FRICTION = Entry("", "29", f"{ASSUMPTION}: steel in sand, UWA-05, any density")
 # what no law by density has
@@ -140,9 +138,9 @@ def modulus_of(angle: str) -> Entry | None:
     except ValueError:
         return None
     density = float(density_of_angle(degrees, ATMOSPHERE, ATMOSPHERE))
-    modulus = MODULUS_RATIOS[1] * cone_resistance(density, ATMOSPHERE)
-    why = f"D_r = {density:.2g} by phi (Bolton 1986), {OF_CONE}"
-    return Entry("Youngs modulus", f"{modulus:.3g}", f"{ASSUMPTION}: {why}")
+    modulus = f"{reference_modulus(density):.3g}"
+    why = f"D_r = {density:.2g} by phi (Bolton 1986), {OF_DENSITY}"
+    return Entry("Youngs modulus", modulus, f"{ASSUMPTION}: {why}")
 
 
 def at_rest(angle: str) -> list[Entry]:
@@ -166,7 +164,6 @@ def numbers_of(
     own, angle = list[Entry](), "30"  # of Karlsruhe sand
     if law == names.LAW:
         angle = f"{CRITICAL_ANGLE:g}"
-        cone = cone_resistance(density, ATMOSPHERE)
         own = [
             Entry(
                 names.CRITICAL_ANGLE,
@@ -175,8 +172,8 @@ def numbers_of(
             ),
             Entry(
                 names.MODULUS,
-                f"{MODULUS_RATIOS[1] * cone:.3g}",
-                f"{ASSUMPTION}: {OF_CONE}",
+                f"{reference_modulus(density):.3g}",
+                f"{ASSUMPTION}: {OF_DENSITY}",
             ),
             Entry(names.REFERENCE_STRESS, f"{ATMOSPHERE:g}"),
             Entry(names.EXPONENT, "0.5", ASSUMPTION),

@@ -107,7 +107,7 @@ def weight_of(scene: theory.Scene) -> float:
 def by_cone(
     method: Method | None, caisson: Caisson, weight: float, h: float
 ) -> list[float]:
-    """Return the suctions of both cases of a method from a cone test, nan without one."""
+    """Return the suctions of both cases of a method from a cone, nan without one."""
     if method is None:
         return [nan, nan]
     area = installation.plug_area(caisson)
