@@ -81,7 +81,8 @@ namespace CaissonMPM
   GridLines::distance_of_tip(const BodyShape &body) const
   {
     constexpr double widths = 3.;
-    return refined_distance.value_or(widths * (body.right() - body.left()));
+    return refined_distance.value_or(
+      std::max(widths * (body.right() - body.left()), least_distance(body)));
   }
 
   bool
@@ -93,6 +94,12 @@ namespace CaissonMPM
             body.lower_surface(.5 * (left + right)) <
               .5 * (body.lower_surface(left) + body.lower_surface(right)) -
                 1e-9 * body.tip_height());
+  }
+
+  double
+  GridLines::least_distance(const BodyShape &body) const
+  {
+    return is_wedge(body) ? std::ldexp(body.tip_height(), 2 - int(levels)) : 0.;
   }
 
   void
@@ -107,14 +114,12 @@ namespace CaissonMPM
                      to_text(n) + " must be a multiple of " + to_text(size) +
                      ", because Grid/Refinement levels = " + to_text(levels) +
                      " halves cells that many times.");
-    const double reach    = distance_of_tip(body) * (size / 2),
-                 smallest = 2. * body.tip_height();
-    if (is_wedge(body) && reach < smallest)
-      throw BadInput(
-        "Grid/Refined distance = " + meters(distance_of_tip(body)) +
-        " must be at least " + meters(smallest / (size / 2)) +
-        " for this tip: the rows that follow it must be level "
-        "again where cells are no longer halved.");
+    const double given = distance_of_tip(body), least = least_distance(body);
+    if (given < (1. - 1e-5) * least) // which the message has in a few digits
+      throw BadInput("Grid/Refined distance = " + meters(given) +
+                     " must be at least " + meters(least) +
+                     " for this tip: the rows that follow it must be level "
+                     "again where cells are no longer halved.");
   }
 
   // ------------------------------------------------------------ the cells

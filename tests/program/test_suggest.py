@@ -508,6 +508,15 @@ class Files(SuggestTest):
         )
         self.assertGreater(history(path / "run")[-1]["tip_force_N"], 1e4)
 
+    def test_edge_at_a_face(self) -> None:
+        """The reach of the halved cells follows such a tip, which is twice as high."""
+        path = self.made_directory() / "own.prm"
+        words = ["--wall", "50mm", "--diameter", "6", "--error", "20"]
+        self.suggest(path, *words, "--density", "0.75", layers=())
+        for edge in (0, 1):
+            edges = {"Rigid body/Edge of the tip": edge}
+            self.run_program(SUCCESS, path, "--validate", entries=edges)
+
     def test_no_study_no_scene(self) -> None:
         """Where the study cannot be written, no scene is left either."""
         path = self.made_directory()

@@ -386,6 +386,11 @@ namespace CaissonMPM
     /** Return the distance from the tip within which cells are the smallest. */
     double
     distance_of_tip(const BodyShape &body) const;
+
+    /** The least distance (m): that from which rows that follow a tip with an
+     * edge are level again where cells are no longer halved. */
+    double
+    least_distance(const BodyShape &body) const;
     /** Return how often the cell of the coarse lines is to be halved for a
      * block. */
     unsigned int
