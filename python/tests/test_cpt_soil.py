@@ -160,6 +160,28 @@ class Kinds(WithFiles):
         with self.assertRaisesRegex(InputError, "--nkt 2 is not between 5 and 40"):
             self.kinds("--nkt", "2")
 
+    def test_strength_at_the_rate_of_a_wall(self) -> None:
+        """N = 3.4 + 1.6 ln(300/2.9) = 10.822. A wall of 40 mm at 1 mm/s shears at 0.025
+        and a cone at 0.5602 1/s: 1 + 0.144 log10 of their ratio is 0.8055."""
+        path = self.layered((5, 0.6, 4.5))
+        usual = interpretation.interpret(path, options())
+        chosen = options()
+        chosen.wall = 0.04
+        own = interpretation.interpret(path, chosen)
+        strengths = [x.layers[0].values[STRENGTH].best for x in (own, usual)]
+        expected = 14 * 0.80553 / 10.8224
+        self.assertAlmostEqual(strengths[0] / strengths[1], expected, places=4)
+        for found, words in (
+            (own, "1 mm/s, ASSUMED, meets 0.81 of the strength at that rate"),
+            (usual, "has 10.8 for the strength at its rate"),
+        ):
+            self.assertIn(words, "\n".join(tables.sources(found)))
+        for word in ("--uncalibrated", "--nkt=14"):
+            chosen = options(word)
+            chosen.wall = 0.04
+            same = interpretation.interpret(path, chosen).layers[0].values[STRENGTH]
+            self.assertAlmostEqual(same.best, strengths[1])
+
 
 class Thin(WithFiles):
     """Strips, seams, and layers without rows."""

@@ -29,6 +29,7 @@ from caisson.design.correlations import (
     RESTS_OF_CLAY,
     ANGLE,
     BEST,
+    CLAY_RATIOS,
     DENSITY,
     HIGH,
     LOW,
@@ -42,10 +43,6 @@ ENDS = {"low": LOW, "best": BEST, "high": HIGH}
 QUANTILES = 0.16, 0.84
 RESISTANCE, INDEX, WEIGHT, K0 = "resistance", "index", "unit weight", "K0"
 REFERENCE = "modulus at 100 kPa"
-# E / s_u of clay, for the low, the best and the high estimate. Duncan & Buchignani
-# (1976) have about 300 for a plasticity of 30 to 50 % and an OCR below 3, and less for
-# more of either; quoted from memory, not checked against the report
-CLAY_RATIOS = (150.0, 300.0, 600.0)
 Limits = tuple[float, float]
 ANY: Limits = (0.0, inf)
 LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}

@@ -9,14 +9,16 @@ import numpy as np
 
 from caisson.table import markdown, write_csv
 from caisson.terminal import printable
-from caisson.design.cone_estimates import CAN, CLAY_RATIOS, ENDS, Estimate, Estimates
+from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
 from caisson.design.cone_estimates import answer_of
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
-from caisson.design.correlations import BEST, OWN_CONE, densities_of
-from caisson.design.ground import CLAY, CLAY_LIKE, DRAINED, SAND
+from caisson.design.correlations import BEST, CLAY_RATIOS, OWN_CLAY, OWN_CONE
+from caisson.design.correlations import PER_DECADE, WALL_VELOCITY
+from caisson.design.correlations import computed_cone_factor, densities_of
+from caisson.design.ground import CLAY, CLAY_LIKE, CONE_FACTOR, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.own_cone import MOST_RATIO
@@ -141,6 +143,19 @@ def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
     return []
 
 
+def on_cone_factor(factor: float, is_own: bool) -> str:
+    """Return what a computed cone says of a cone factor; is_own: of OWN_CLAY."""
+    computed = computed_cone_factor()
+    found = f"N_kt: a cone computed in clay with this stiffness has {computed:.3g}"
+    if not is_own:
+        return f"{found} for the strength at its rate"
+    return (
+        f"{found} ({CONE_FACTOR:g} is usual for tests in the laboratory), and a wall at"
+        f" {1e3 * WALL_VELOCITY:g} mm/s, ASSUMED, meets {computed / factor:.2f} of the"
+        f" strength at that rate ({100 * PER_DECADE:.3g} % for ten times the rate)"
+    )
+
+
 def sources(test: Interpretation) -> list[str]:
     """Return what the numbers of the table rest on."""
     have = {name for e in test.layers for name in e.values}
@@ -150,8 +165,12 @@ def sources(test: Interpretation) -> list[str]:
         is_there = c.quantity in have if c.quantity != MODULUS else SAND in kinds
         if test.names[c.quantity] == c.name and is_there:
             factor = test.ground.cone_factor
-            name = f"{c.name}, N_kt = {factor:g}" if c.quantity == STRENGTH else c.name
+            name = (
+                f"{c.name}, N_kt = {factor:.3g}" if c.quantity == STRENGTH else c.name
+            )
             found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
+            if c.quantity == STRENGTH:
+                found.append(on_cone_factor(factor, c.name == OWN_CLAY))
     if kinds - {SAND}:
         low, best, high = CLAY_RATIOS
         fine = " and ".join(sorted(kinds - {SAND}))

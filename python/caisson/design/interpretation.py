@@ -107,7 +107,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option for each"
     )
     add("--soil", type=soil, metavar="KIND", help=text, **every)
-    text = f"cone factor N_kt of the strength of clay, default {CONE_FACTOR:g}"
+    text = f"cone factor N_kt of clay; default {CONE_FACTOR:g}, of a caisson a computed one"
     add("--nkt", type=number(""), metavar="N", help=text)
     text = "of the wet soil; needed where the test has no sleeve friction"
     add("--unit-weight", type=number("kN/m3"), metavar="KN/M3", help=text)
@@ -173,9 +173,16 @@ def interpret(
         )
     weight = options.unit_weight
     ground = ground_of(test, area_ratio, weight and 1e3 * weight)
-    ground = replace(ground, cone_factor=options.nkt or CONE_FACTOR)
-    given = correlations.UNCALIBRATED if options.uncalibrated else ()
-    names = correlations.chosen([*options.correlation, *given])
+    wall = getattr(options, "wall", None)
+    given = [] if wall else [correlations.NKT]
+    given += correlations.UNCALIBRATED if options.uncalibrated else ()
+    last = [correlations.NKT] if options.nkt else []
+    names = correlations.chosen([*given, *options.correlation, *last])
+    factor = options.nkt or CONE_FACTOR
+    if names[correlations.STRENGTH] == correlations.OWN_CLAY:
+        rate = correlations.rate_factor(wall)
+        factor = correlations.computed_cone_factor() / rate
+    ground = replace(ground, cone_factor=factor)
     tops = tops_for(ground, options)
     try:
         found = layers.layers_of(ground, tops, given_kinds(ground, tops, options.soil))

@@ -25,12 +25,12 @@ import numpy as np
 from caisson import density_law as names
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer
-from caisson.design.cone_estimates import CLAY_RATIOS
+from caisson.design.correlations import CLAY_POISSON, CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY
 from caisson.design.expression import value_at
 from caisson.design import ground
 
-POISSON = "0.45"  # hardly any change of volume, as without drainage
+POISSON = f"{CLAY_POISSON:g}"
 ADHESION_FACTOR = "0.5"
 MODULUS_REMARK = f"{ASSUMPTION}: {CLAY_RATIOS[1]:g} s_u (Duncan & Buchignani 1976)"
 NORMAL_RATIO, EXPONENT = 0.22, 0.8  # s_u/sigma'_v at OCR 1, and of OCR
