@@ -39,7 +39,7 @@ Young's modulus of sand
         resistance in dense sand
 
 Undrained strength of clay and silt
-    own-cone-clay      s_u = (q_t - sigma_v)/(N/f), with the N = 3.4 + 1.6 ln(G/s_u) of a
+    own-cone-clay      s_u = (q_t - sigma_v)/(N/f), with N = 3.4 + 1.6 ln(G/s_u) of a
         smooth cone in Tresca clay (Lu et al. 2004), which cones computed with the
         program have within 3 %, and the factor f of the strength at the slower rate of
         a wall: 1 + 0.144 log10 of its rate over that of the cone, velocity over

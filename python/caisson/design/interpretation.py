@@ -107,7 +107,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " friction; of a layer, 2=clay; of depths, 3-6.5=clay; give one option for each"
     )
     add("--soil", type=soil, metavar="KIND", help=text, **every)
-    text = f"cone factor N_kt of clay; default {CONE_FACTOR:g}, of a caisson a computed one"
+    text = f"cone factor N_kt of clay; default {CONE_FACTOR:g}, for a caisson computed"
     add("--nkt", type=number(""), metavar="N", help=text)
     text = "of the wet soil; needed where the test has no sleeve friction"
     add("--unit-weight", type=number("kN/m3"), metavar="KN/M3", help=text)
