@@ -126,5 +126,6 @@ def main(options: argparse.Namespace) -> int:
     status = cpt_page.run_study(options.study, directory, options.jobs)
     name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
-    report([cpt_page.write(found, options.study, directory, facts)])
+    page = cpt_page.write(found, options.study, directory, facts, options.error)
+    report([page])
     return status

@@ -4,6 +4,7 @@ forces of all estimates beside the design methods, on one page."""
 import argparse
 import html
 import re
+from math import hypot
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,9 @@ from caisson.design.reasons import text_of
 HERE = Path(__file__).parent
 NAME = "report.html"
 WIDEST = 5  # layers side by side
+# shares of the force by which the model may be wrong (doc/validation.md): the forces on
+# a model caisson, and a cone computed in the ground of the scene
+OF_MODEL = {"model caisson": 0.08, "computed cone": 0.13}
 
 
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
@@ -60,6 +64,27 @@ def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
         low, high = (end[at] / 1e3 for end in band)
         columns.append([range_of(a, b) for a, b in zip(low, high)])
     return heads, [list(row) for row in zip(*columns)]
+
+
+def bar_of(found: Answers, error: int) -> str:
+    """Return the total force at the end with what mesh, ground and model may change, in
+    a sentence; nothing where an estimate is missing. error: of the mesh, in %."""
+    if not {"low", "best", "high"} <= set(found.names):
+        return ""
+    ends = dict(zip(found.names, found.computed[:, -1] / 1e6))
+    best, mesh, model = ends["best"], error / 100, hypot(*OF_MODEL.values())
+    if not np.isfinite(list(ends.values())).all() or best <= 0:
+        return ""
+    ground = min(ends.values()) / best - 1, max(ends.values()) / best - 1
+    below, above = (hypot(mesh, model, share) for share in ground)
+    return (
+        f"At {text_of(found.depth[-1])} m the total force is {text_of(best)} MN, from"
+        f" {text_of(best * max(1 - below, 0))} to {text_of(best * (1 + above))} MN:"
+        f" mesh and steps ±{error} % (asked for, not computed), the ground"
+        f" {100 * ground[0]:+.0f} and {100 * ground[1]:+.0f} % (low and high estimate),"
+        f" the model ±{100 * model:.0f} % (a model caisson and a computed cone beside"
+        " measurements), together the root of the sum of their squares"
+    )
 
 
 def range_of(low: float, high: float) -> str:
@@ -128,10 +153,14 @@ def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, 
 
 
 def write(
-    test: Interpretation, file: Path, directory: Path, facts: list[tuple[str, str]]
+    test: Interpretation,
+    file: Path,
+    directory: Path,
+    facts: list[tuple[str, str]],
+    error: int,
 ) -> Path:
-    """Write the page of a study with a cone test. facts: what it names first. Raises
-    ResultsError where no run has an answer."""
+    """Write the page of a study with a cone test. facts: what it names first; error: of
+    the mesh, in %. Raises ResultsError where no run has an answer."""
     study = study_of(file, directory)
     outcomes = Outcomes(study)
     if not outcomes.complete:
@@ -150,6 +179,7 @@ def write(
             troubles=troubles_of(outcomes),
             soil=by_layer(*cone_texts.cells_of(test.layers)),
             remarks=cone_texts.remarks(test),
+            bar=bar_of(answers, error),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),
