@@ -400,15 +400,15 @@ class Estimates(WithFiles):
                 expected = 1 - np.sin(np.radians(angle.best))
                 self.assertAlmostEqual(rest.best, expected, places=2)
 
-    def test_no_variation_leaves_the_error_of_a_cone(self) -> None:
-        """In ground of one density low and high answer 4 % less and more."""
+    def test_no_variation_leaves_the_errors(self) -> None:
+        """In ground of one density low and high answer 11 % less and more."""
         rows = [f"{z:.2f},{(0.0919 * z) ** 0.46 * 9:.5f}" for z in np.arange(1, 9, 0.1)]
         path = self.written("depth_m,qc_MPa\n" + "\n".join(rows))
         words = ["--soil", "sand", "--unit-weight", "19", "--tops", "0"]
         [one] = interpretation.interpret(path, options(*words)).layers
         density = one.values[DENSITY]
         for end in (density.low, density.high):
-            self.assertTrue(0.005 < abs(end - density.best) < 0.03, density)
+            self.assertTrue(0.02 < abs(end - density.best) < 0.05, density)
         # 25.9965 (1 - n) + 9.81 n = 19, in kN/m3, of quartz with 2650 kg/m3
         self.assertAlmostEqual(one.porosity(), 0.43224, places=4)
         self.assertAlmostEqual(one.values[WEIGHT].best, 19e3)

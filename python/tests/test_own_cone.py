@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from caisson.commands import round_trip
+from caisson.disk import InputError
 from caisson.design import interpretation, own_cone
 from caisson.design.density import bolton_angle, cone_resistance
 from caisson.design.density import reference_modulus
@@ -80,11 +81,24 @@ class Fitted(unittest.TestCase):
         self.assertAlmostEqual(rows.middle(*sand), 0.0, places=5)
 
     def test_rows_near_the_surface(self) -> None:
-        """They count only where the layer has no others."""
-        depth, every = np.array([0.2, 0.5, 0.9]), np.ones(3, bool)
-        self.assertEqual(list(own_cone.rows_of(every, depth)), [False, False, True])
-        shallow = np.array([True, True, False])
-        self.assertEqual(list(own_cone.rows_of(shallow, depth)), list(shallow))
+        """They do not count."""
+        depth, every = np.array([0.2, 0.9, 1.1]), np.ones(3, bool)
+        self.assertEqual(list(own_cone.deep(every, depth)), [False, False, True])
+
+    def test_what_is_known(self) -> None:
+        """Between the densities and the stresses of the table."""
+        self.assertTrue(own_cone.is_known(0.2, 10e3))
+        for density, stress in ((0.1, 10e3), (0.5, 5e3), (0.5, 200e3)):
+            self.assertFalse(own_cone.is_known(density, stress))
+
+    def test_no_modulus_beyond_the_bounds(self) -> None:
+        """Those of all rows of a line, not only of its top."""
+        rows = rows_with(0.5, 1.0, 3.0, growth=1.0)
+        sand = own_cone.fitted(0.5, rows)
+        self.assertLessEqual(
+            (sand.ratio * rows.share).max(), own_cone.MOST_RATIO + 1e-9
+        )
+        self.assertGreater(sand.density, 0.5)
 
 
 class Table(unittest.TestCase):
@@ -165,7 +179,7 @@ class RoundTrip(unittest.TestCase):
         answer = round_trip.Answer(depth, measured, computed, counts)
         self.assertRegex(answer.words(), "meets 0.99 times .* 0.90 to 1.10 times it")
         nothing = round_trip.Answer(depth, measured, computed, depth > 9)
-        self.assertIn("nothing to compare", nothing.words())
+        self.assertIn("nothing was measured", nothing.words())
 
     def test_what_counts(self) -> None:
         """Half meters away from the surface and from boundaries; a lens, which is not
@@ -178,8 +192,15 @@ class RoundTrip(unittest.TestCase):
             rows = "".join(f"{z:.2f},{force:.6g}\n" for z in way)
             text = f"penetration_m,tip_force_N\n{rows}"
             (path / "history.csv").write_text(text, encoding="utf-8")
-            answer = round_trip.answer_of(found, path)
-            files = round_trip.write(answer, found, path)
+            cone = round_trip.Cone(found, path, 7.4, 5.0)
+            (path / round_trip.RESULTS).mkdir()
+            (path / "history.csv").rename(path / round_trip.RESULTS / "history.csv")
+            answer = cone.answer()
+            files = cone.write(answer)
+            with self.assertRaisesRegex(InputError, "fewer layers by --tops"):
+                round_trip.Cone(found, path, 1.2, 5.0).check()
+            cone.check()
+            self.assertIsNone(cone.known())
             self.assertTrue(all(file.is_file() for file in files))
         np.testing.assert_allclose(answer.computed, 10e6, rtol=1e-5)
         expected = [z for z in answer.depth if z in (1.5, 4.5, 5, 5.5, 6, 6.5, 7)]

@@ -52,6 +52,7 @@ def check(options: argparse.Namespace) -> bool:
     """Return whether there is a caisson. Raises InputError."""
     if options.cpt is None:
         raise InputError("give the file of a cone test, or --list")
+    suggest.check_law_of_cone(options)
     given = [name for name in SIZES if getattr(options, name) is not None]
     if given and len(given) < len(SIZES):
         missing = [f"--{name}" for name in SIZES if name not in given]
@@ -106,10 +107,13 @@ def main(options: argparse.Namespace) -> int:
         print(cone_texts.text_of_test(found))
     tip = suggest.end_of(options) if has_caisson else None
     cone_end = min(deepest or inf, float(found.ground.depth[-1]))
+    cone = round_trip.Cone(found, directory, cone_end, tip or inf)
+    if options.round_trip:
+        cone.check()
     with disk.all_or_none(options.overwrite):
         files = write(found, directory, tip, options.location)
         if options.round_trip:
-            files.append(round_trip.write_scene(found, cone_end, directory))
+            files.append(cone.write_scene())
         if has_caisson:
             options.file, options.study = directory / SCENE, directory / STUDY
             options.layer = options.sand = options.density = None
@@ -118,7 +122,7 @@ def main(options: argparse.Namespace) -> int:
             files += [options.file, options.study]
     report(files)
     if options.round_trip:
-        report(round_trip.run(found, directory))
+        report(cone.run())
     if not options.run:
         return 0
     study = cpt_page.study_of(options.study, directory)
@@ -126,6 +130,6 @@ def main(options: argparse.Namespace) -> int:
     status = cpt_page.run_study(options.study, directory, options.jobs)
     name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
-    page = cpt_page.write(found, options.study, directory, facts, options.error)
+    page = cpt_page.write(cone, options.study, facts, options.error)
     report([page])
     return status

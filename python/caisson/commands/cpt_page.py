@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from caisson.commands import round_trip
+from caisson.commands.round_trip import Cone
 from caisson.template import picture_of, template
 from caisson import disk, plot, report, study_command
 from caisson.design import cone_texts
@@ -19,7 +19,6 @@ from caisson.parameters.outcome import Outcomes, words_of
 from caisson.verdict import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson.design.interpretation import Interpretation
 from caisson.design.reasons import text_of
 
 HERE = Path(__file__).parent
@@ -152,22 +151,18 @@ def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, 
     return [*facts, ("Computed", written or "not known"), ("Program", program)]
 
 
-def write(
-    test: Interpretation,
-    file: Path,
-    directory: Path,
-    facts: list[tuple[str, str]],
-    error: int,
-) -> Path:
-    """Write the page of a study with a cone test. facts: what it names first; error: of
-    the mesh, in %. Raises ResultsError where no run has an answer."""
+def write(cone: Cone, file: Path, facts: list[tuple[str, str]], error: int) -> Path:
+    """Write the page of a study with a cone test, into the directory of its cone.
+    facts: what it names first; error: of the mesh, in %. Raises ResultsError where no
+    run has an answer."""
+    test, directory = cone.found, cone.directory
     study = study_of(file, directory)
     outcomes = Outcomes(study)
     if not outcomes.complete:
         raise ResultsError(f"no run of {file} is complete: see their logs")
     answers = methods.answers_of(outcomes)
     results = directory / file_name(study.id)
-    cone = round_trip.known(test, directory)
+    answer = cone.known()
     css = Path(report.__file__).parent / "page.css"
     path = directory / NAME
     disk.write(
@@ -184,9 +179,8 @@ def write(
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),
             methods=picture_of(results / "methods.png"),
-            cone=cone and cone.words(),
-            cone_picture=cone
-            and picture_of(round_trip.write(cone, test, directory)[1]),
+            cone=answer and answer.words(),
+            cone_picture=answer and picture_of(cone.write(answer)[1]),
             observed="" if outcomes.column == TOTAL else words_of(outcomes.column),
             fan=picture_of(results / "fan.png"),
             reports=reports_of(outcomes, directory),

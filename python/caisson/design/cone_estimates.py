@@ -49,6 +49,8 @@ LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}
 THINNEST_LINE, FEWEST_ROWS = 1.0, 10  # m, and rows of a layer with a line
 LEAST_GROWTH, LEAST_GAIN = 0.15, 0.9  # of the middle; of the difference without a line
 LEAST_SHARE, NEAREST, TINY = 0.05, 1e-3, 1e-3  # of the middle; of a row; Pa
+LEAST_CHANGE = 5e-3  # of a relative density
+LEAST_OF_MODULUS = 0.5  # of the middle, where it answers the cone
 ROUNDS_OF_LINE = 20
 # what a kind of soil has
 HAS = {
@@ -124,9 +126,12 @@ def line_of(depth: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     return float(value), float(gradient)
 
 
-def growth_in(ground: Ground, layer: Layer, values: np.ndarray) -> float:
+def growth_in(
+    ground: Ground, layer: Layer, values: np.ndarray, least: float = LEAST_SHARE
+) -> float:
     """Return the growth of values [n] with depth, as a share of that at the top of a
-    layer for each m; 0 where one value says as much as a line."""
+    layer for each m; 0 where one value says as much as a line. least: share of the
+    middle that the line has at either end."""
     depth, values = ground.depth[layer.rows], values[layer.rows]
     thick = layer.bottom - layer.top
     if layer.is_seam or thick < THINNEST_LINE or len(depth) < FEWEST_ROWS:
@@ -141,7 +146,7 @@ def growth_in(ground: Ground, layer: Layer, values: np.ndarray) -> float:
     if far[0] > LEAST_GAIN * far[1] or gradient < 0 and is_last:
         return 0.0  # and no strength that falls below the test
     # of a line that would begin or end below 0, or nearly so, a part is taken
-    most = (1 - LEAST_SHARE) * middle / (thick / 2)
+    most = (1 - least) * middle / (thick / 2)
     gradient = min(max(gradient, -most), most)
     return gradient / (middle - gradient * thick / 2)
 
@@ -211,10 +216,20 @@ def cone_rows(
 ) -> own_cone.Rows:
     """Return the rows of a layer of sand that count for its own cone. growth: of the
     modulus."""
-    rows = own_cone.rows_of(layer.rows, ground.depth)
+    rows = own_cone.deep(layer.rows, ground.depth)
     stress = ground.stress[rows] * (1 + 2 * values[K0].best) / 3
     share = along(ground, layer, growth)[rows]
     return own_cone.Rows(stress, ground.resistance[rows], share)
+
+
+def density_before(ground: Ground, e: Estimates, names: dict[str, str]) -> float | None:
+    """Return the relative density by the correlation where a layer of sand needs
+    another one to answer its cone, else None."""
+    if e.layer.kind != SAND or names[MODULUS] != correlations.OWN_CONE:
+        return None
+    given = correlations.densities_of(ground, names, BEST)
+    found = ground.median(given, e.layer.rows)
+    return found if abs(found - e.values[DENSITY].best) > LEAST_CHANGE else None
 
 
 def answer_of(ground: Ground, e: Estimates) -> float:
@@ -230,17 +245,19 @@ def answering(
     ground: Ground, layer: Layer, values: Mapping[str, Estimate]
 ) -> dict[str, Estimate]:
     """Return density and modulus of sand with which a computed cone meets the measured
-    resistance. values: of the correlations."""
+    resistance; nothing where no row is deep enough. values: of the correlations."""
     density = values[DENSITY].best
+    counts = own_cone.deep(layer.rows, ground.depth)
+    if not counts.any():
+        return {}
     rows = cone_rows(ground, layer, values, 0.0)
     ratios = np.ones(len(ground.depth))
-    counts = own_cone.rows_of(layer.rows, ground.depth)
     ratios[counts] = own_cone.ratios_of_rows(density, rows)
-    growth = growth_in(ground, replace(layer, rows=counts), ratios)
+    growth = growth_in(ground, replace(layer, rows=counts), ratios, LEAST_OF_MODULUS)
     rows = cone_rows(ground, layer, values, growth)
     best = own_cone.fitted(density, rows)
     scatter = np.quantile(-rows.excess(*best), QUANTILES)
-    shares = [hypot(float(share), own_cone.ERROR_OF_CONE) for share in scatter]
+    shares = [hypot(float(share), *own_cone.ERRORS) for share in scatter]
     low, high = (
         own_cone.changed(best, rows.times(exp(sign * share)))
         for sign, share in zip((-1, 1), shares)

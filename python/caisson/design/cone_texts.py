@@ -11,20 +11,19 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
-from caisson.design.cone_estimates import answer_of
+from caisson.design.cone_estimates import answer_of, density_before
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
-from caisson.design.correlations import BEST, CLAY_RATIOS, OWN_CLAY, OWN_CONE
+from caisson.design.correlations import BY_DENSITY, CLAY_RATIOS, OWN_CLAY, OWN_CONE
 from caisson.design.correlations import PER_DECADE, WALL_VELOCITY
-from caisson.design.correlations import computed_cone_factor, densities_of
+from caisson.design.correlations import computed_cone_factor
 from caisson.design.ground import CLAY, CLAY_LIKE, CONE_FACTOR, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
-from caisson.design.own_cone import MOST_RATIO
+from caisson.design.own_cone import DEEP, MOST_RATIO, deep, is_known
 
 DIGITS = 2  # of a small value, at least
-LEAST_CHANGE = 0.05  # of a relative density that is told
 DOES_NOT_ANSWER = 0.1  # of the resistance of its own cone
 
 
@@ -147,7 +146,7 @@ def on_cone_factor(factor: float, is_own: bool) -> str:
     """Return what a computed cone says of a cone factor; is_own: of OWN_CLAY."""
     computed = computed_cone_factor()
     found = f"N_kt: a cone computed in clay with this stiffness has {computed:.3g}"
-    if not is_own:
+    if not is_own or factor == computed:
         return f"{found} for the strength at its rate"
     return (
         f"{found} ({CONE_FACTOR:g} is usual for tests in the laboratory), and a wall at"
@@ -189,20 +188,34 @@ def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
     found = list[str]()
     if e.layer.kind != SAND or test.names[MODULUS] != OWN_CONE:
         return found
-    given = densities_of(test.ground, test.names, BEST)
-    by_correlation = test.ground.median(given, e.layer.rows)
-    if abs(by_correlation - e.values[DENSITY].best) > LEAST_CHANGE:
+    if not deep(e.layer.rows, test.ground.depth).any():
+        return [
+            f"layer {number} has no row below {DEEP:g} m, where a cone is deep: its"
+            f" modulus is that by density, {BY_DENSITY}"
+        ]
+    density = e.values[DENSITY].best
+    before = density_before(test.ground, e, test.names)
+    if before is not None:
         found.append(
             f"layer {number}: with a modulus within a factor of {MOST_RATIO:g} of that"
             " by density it does not answer its cone; its relative density is"
-            f" {100 * e.values[DENSITY].best:.0f} %, and not the"
-            f" {100 * by_correlation:.0f} % of {test.names[DENSITY]}"
+            f" {100 * density:.3g} %, and not the {100 * before:.3g} % of"
+            f" {test.names[DENSITY]}"
         )
     ratio = answer_of(test.ground, e)
     if abs(ratio - 1) > DOES_NOT_ANSWER:
         found.append(
             f"layer {number}: no sand of this law answers its cone; a computed cone"
-            f" meets {ratio:.2f} times the measured resistance"
+            f" meets {ratio:.2f} times the measured resistance, and low and high"
+            " estimate may be the same"
+        )
+    stress = test.ground.median(test.ground.stress, e.layer.rows)
+    mean = stress * (1 + 2 * e.values[K0].best) / 3
+    if not is_known(density, mean):
+        found.append(
+            f"layer {number}: no cone was computed at a relative density of"
+            f" {100 * density:.0f} % and a mean stress of {mean / 1e3:.3g} kPa: the"
+            " table goes on in a straight line"
         )
     return found
 

@@ -122,7 +122,7 @@ EVERY = [
             MODULUS,
             OWN_CONE,
             "cones computed with the program",
-            "sand by density and stress, more than 20 cone diameters deep",
+            "a number of the law, no modulus of the soil; below 30 cone diameters",
         ),
         (
             MODULUS,

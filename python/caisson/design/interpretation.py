@@ -174,10 +174,11 @@ def interpret(
     weight = options.unit_weight
     ground = ground_of(test, area_ratio, weight and 1e3 * weight)
     wall = getattr(options, "wall", None)
-    given = [] if wall else [correlations.NKT]
-    given += correlations.UNCALIBRATED if options.uncalibrated else ()
-    last = [correlations.NKT] if options.nkt else []
-    names = correlations.chosen([*given, *options.correlation, *last])
+    first = [] if wall else [correlations.NKT]
+    last = correlations.UNCALIBRATED if options.uncalibrated else ()
+    if options.nkt:
+        last = (*last, correlations.NKT)
+    names = correlations.chosen([*first, *options.correlation, *last])
     factor = options.nkt or CONE_FACTOR
     if names[correlations.STRENGTH] == correlations.OWN_CLAY:
         rate = correlations.rate_factor(wall)

@@ -31,12 +31,14 @@ from caisson.design.density import reference_modulus
 
 FILE = Path(__file__).with_name("computed_cones.csv")
 AXES = ["relative_density", "mean_stress_kPa", "modulus_ratio"]
-ERROR_OF_CONE = 0.04  # of q_c: four companies in one clay, Onsoy
+# of q_c: four companies in one clay, Onsoy; a cone in the ground of a scene over the
+# table, doc/how_to/cpt.md
+ERRORS = 0.04, 0.10
 MOST_RATIO = 2.5  # of the modulus to that by density, and its inverse
 DENSITIES = 0.05, 1.0
 EXACT = 1e-6  # of ln q_c
 STEPS = 41  # of the ratio, between which it is interpolated for a row
-DEEP = 0.7  # m, 20 diameters of the usual cone, above which it is not deep
+DEEP = 1.07  # m, 30 diameters of the usual cone, above which it is not deep
 
 
 class Sand(NamedTuple):
@@ -68,6 +70,13 @@ class Rows(NamedTuple):
         """Return its median."""
         return float(np.median(self.excess(density, ratio)))
 
+    def ratios(self) -> tuple[float, float]:
+        """Return the least and the largest ratio with which the modulus of all rows is
+        within MOST_RATIO of that by density."""
+        return 1 / MOST_RATIO / float(self.share.min()), MOST_RATIO / float(
+            self.share.max()
+        )
+
     def times(self, factor: float) -> "Rows":
         """Return the rows with another resistance."""
         return self._replace(resistance=factor * self.resistance)
@@ -96,10 +105,16 @@ def computed(
     return np.asarray(np.exp(table()[0](np.stack(where, axis=-1))))
 
 
-def rows_of(rows: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    """Return which rows [n] of a layer count: those in which a cone is deep, or all."""
-    deep = rows & (depth >= DEEP)
-    return deep if deep.any() else rows
+def deep(rows: np.ndarray, depth: np.ndarray) -> np.ndarray:
+    """Return which rows [n] of a layer count: those in which a cone is deep."""
+    return rows & (depth >= DEEP)
+
+
+def is_known(density: float, stress: float) -> bool:
+    """Return whether cones were computed about this density and mean stress (Pa)."""
+    axes = table()[1]
+    inside = axes[1][0] <= np.log(stress) <= axes[1][-1]
+    return bool(inside and axes[0][0] <= density <= axes[0][-1])
 
 
 def zero_of(function: Callable[[float], float], least: float, most: float) -> float:
@@ -123,8 +138,10 @@ def ratios_of_rows(density: float, rows: Rows) -> np.ndarray:
 
 def ratio_for(density: float, rows: Rows) -> float:
     """Return the ratio of the modulus, within MOST_RATIO, for a relative density."""
-    end = np.log(MOST_RATIO)
-    return float(np.exp(zero_of(lambda x: rows.middle(density, np.exp(x)), -end, end)))
+    ends = rows.ratios()
+    return float(
+        np.exp(zero_of(lambda x: rows.middle(density, np.exp(x)), *np.log(ends)))
+    )
 
 
 def density_for(ratio: float, rows: Rows) -> float:

@@ -113,6 +113,15 @@ def percent(text: str) -> int:
     return int(text.removesuffix("%"))
 
 
+def check_law_of_cone(options: argparse.Namespace) -> None:
+    """Refuse a law whose ground does not answer the cone test. Raises SuggestError."""
+    if sand.LAWS.get(options.law) == density_law.HYPOPLASTIC:
+        raise SuggestError(
+            "--law hypoplastic: its ground answers a cone with 0.4 of the resistance"
+            " measured; leave --law out, and take the law by density and stress"
+        )
+
+
 def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     """Refuse what cannot be meant. Raises SuggestError."""
     body, end = body_of(options), options.penetration
@@ -122,14 +131,11 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
             "give the soil: either --layer, or a cone test by --cpt, or sand by --sand"
             " or --density"
         )
-    if options.cpt and sand.LAWS.get(options.law) == density_law.HYPOPLASTIC:
-        raise SuggestError(
-            "--law hypoplastic: its ground answers a cone with 0.4 of the resistance"
-            " measured; leave --law out, and take the law by density and stress"
-        )
+    if options.cpt:
+        check_law_of_cone(options)
     if not options.cpt:
         cone_options.how_of(options).refuse()
-    for name in ("tops", "correlation", "soil", "unit_weight", "nkt"):
+    for name in ("tops", "correlation", "uncalibrated", "soil", "unit_weight", "nkt"):
         if not options.cpt and getattr(options, name):
             raise SuggestError(f"--{name.replace('_', '-')} is for a cone test, --cpt")
     sizes.check(body_of(options), options.weight)

@@ -9,7 +9,9 @@ from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED
 from caisson.suggest.walls import ADHESION_OF_CLAY
+from caisson.design import correlations, own_cone
 from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
+from caisson.design.cone_estimates import density_before
 from caisson.design.correlations import DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
@@ -66,11 +68,19 @@ def end_of_test(found: Interpretation, end: float) -> str:
     )
 
 
+def has_deep_rows(found: Interpretation, e: Estimates) -> bool:
+    """Return whether a layer has rows in which a cone is deep."""
+    return bool(own_cone.deep(e.layer.rows, found.ground.depth).any())
+
+
 def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
-    source = names[name]
-    shown = SHOWN[name]
+    source, shown = names[name], SHOWN[name]
+    if name == DENSITY and density_before(found.ground, e, found.names) is not None:
+        source = found.names[MODULUS]  # which the correlation does not answer
+    if name == REFERENCE and not has_deep_rows(found, e):
+        source = correlations.BY_DENSITY
     words = text_of(e.values[name], shown, e.layer.top)
     text = f" # FROM CPT ({source}): {shown.head} {words}"
     start, layer = found.ground.measured_from, e.layer
@@ -99,7 +109,10 @@ def value_of(e: Estimates, name: str, end: str) -> str:
     if not estimate.growth:
         return number(estimate.at(end))
     value, gradient = estimate.line(end, e.layer.top)  # whose difference counts
-    return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*d"
+    depth = "d"
+    if name == REFERENCE:  # which does not go on below the test
+        depth = f"min(d, {e.layer.bottom:.6g})"
+    return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*{depth}"
 
 
 def sand_of(found: Interpretation, e: Estimates) -> list[Entry]:
