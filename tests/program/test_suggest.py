@@ -7,6 +7,8 @@ import tomllib
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 from program import SUCCESS, HERE, ProgramTest, caisson, history, summary
 
 from caisson import density_law
@@ -491,6 +493,28 @@ class ConeTests(SuggestTest):
         self.assertIn("_total_N [best]", head)
         for method in ("houlsby_byrne", "dnv", "senders_randolph", "andersen"):
             self.assertIn(f"{method}_", head)
+
+    def test_round_trip(self) -> None:
+        """The cone goes in once, and what it met is in a table and a picture; another
+        ground has another cone."""
+        path, words = self.made_directory(), ["--diameter", "2", "--skirt", "1.25"]
+        rows = [
+            f"{z:.2f},{1 + 2 * z:.3f},{6 + 12 * z:.2f}" for z in np.arange(0, 2, 0.05)
+        ]
+        test = path / "test.csv"
+        test.write_text("\n".join(["depth_m,qc_MPa,fs_kPa", *rows]), encoding="utf-8")
+        words += ["--round-trip", "--out", str(path / "out")]
+        first = self.caisson("cpt", str(test), *words)
+        self.assertRegex(
+            first, r"meets (0\.[89]|1\.[01])\d times the measured resistance"
+        )
+        self.assertIn("a cone goes into this ground", first)
+        for name in ("csv", "png", "prm"):
+            self.assertTrue((path / f"out/round_trip.{name}").is_file())
+        again = self.caisson("cpt", str(test), *words)
+        self.assertNotIn("a cone goes into this ground", again)
+        refused = self.caisson("cpt", str(test), *words, "--skirt", "0.4", status=1)
+        self.assertIn("fewer layers by --tops", refused)
 
 
 class Files(SuggestTest):
