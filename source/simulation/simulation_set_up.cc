@@ -78,7 +78,9 @@ namespace CaissonMPM
   {
     soil.check_parameters();
     body.refine(lines.number_to_divide_by());
-    body.enter_soil(soil.has_layer_with_friction());
+    // undrained sand keeps its volume, and fails like clay
+    body.enter_soil(soil.has_layer_with_friction() &&
+                    water->traits().bulk_modulus == 0.);
     body.check_parameters();
     lines.check_parameters();
     generator.check_parameters();

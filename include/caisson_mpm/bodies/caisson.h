@@ -68,7 +68,7 @@ namespace CaissonMPM
         "The height by which the mesh raises the outer nodes of the tip, in "
         "widths of a cell there. It makes up for the resistance that cells at "
         "a sharp corner add, and vanishes as cells become smaller; auto is 1, "
-        "or 0.5 if no layer has a friction angle.",
+        "or 0.5 if no layer has a friction angle or the water is undrained.",
         Double(0., 2.));
       add_parameter(
         "Lid thickness",
