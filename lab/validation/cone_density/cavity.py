@@ -19,11 +19,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from caisson.design.assumed_cone import LEAST_OF_STRENGTH
+from caisson.design.density import CRITICAL_ANGLE, bolton_angle
+from caisson.suggest.sand import KARLSRUHE
 from caisson.units import ATMOSPHERE
 
-DENSEST, LOOSEST = 0.53, 0.84  # void ratios of the relative densities 1 and 0
-CRITICAL, BOLTON_Q, PER_INDEX, LEAST_STRESS = 33.0, 10.0, 3.0, 150e3
-MOST_INDEX, DILATION = 4.0, 0.3
+DENSEST, LOOSEST = KARLSRUHE  # void ratios of the relative densities 1 and 0
+PER_INDEX, DILATION = 3.0, 0.3  # degrees of friction, and strain, of I
 POISSON, EXPONENT = 0.3, 0.5
 LEAST_MEAN = 1e3  # Pa, of the stiffness
 STRAIN, STEP, FIRST, LAST = 5e-4, 0.01, 1e-6, 1e-4  # of a step; 1 - s at the end
@@ -46,9 +48,8 @@ def hardin(void_ratio: np.ndarray) -> np.ndarray:
 def strength(void_ratio: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return (1 + sin)/(1 - sin) of the friction angle, and of the dilatancy angle."""
     density = (LOOSEST - void_ratio) / (LOOSEST - DENSEST)
-    stress = np.maximum(stress, LEAST_STRESS) / 1e3
-    index = np.clip(density * (BOLTON_Q - np.log(stress)) - 1, 0, MOST_INDEX)
-    sine = np.sin(np.radians(CRITICAL + PER_INDEX * index))
+    angle = bolton_angle(density, np.maximum(stress, LEAST_OF_STRENGTH))
+    index, sine = (angle - CRITICAL_ANGLE) / PER_INDEX, np.sin(np.radians(angle))
     return (1 + sine) / (1 - sine), 1 + DILATION * index
 
 

@@ -7,7 +7,6 @@ The ground is uniform, without gravity, and so large that side, bottom and surfa
 not matter: at 10 and 30 kPa dense sand would break out of a chamber of 1.2 m. The table
 is written beside the results; computed_cones.csv of the package is its copy.
 """
-from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +16,12 @@ from matplotlib.figure import Figure
 
 from caisson.design import own_cone
 from caisson.design.density import reference_modulus
-from caisson.study import Study, StudyRun
-from lab.curves import final_mean
+from caisson.study import Study
 from lab.validation.cone_density.cavity import DENSEST, LOOSEST, Sand, limit_pressure
-from lab.validation.cone_sand.cone_sand import fits
+from lab.validation.cone_sand.cone_sand import fits, resistance
 from lab.validation.verdict import Row
 
-DIAMETER, K0 = 0.0357, 0.46  # m
+K0 = 0.46
 DENSITIES = (0.2, 0.4, 0.6, 0.8, 1.0)
 RATIOS = (1 / own_cone.MOST_RATIO, 1.0, own_cone.MOST_RATIO)
 WAYS = {10: 1.5, 30: 1.2, 100: 0.9, 300: 0.9}  # m, by the vertical stress (kPa)
@@ -76,14 +74,6 @@ def runs_of(_: Path) -> list[dict[str, Any]]:
         }
         for state in states()
     ]
-
-
-def resistance(run: StudyRun, vertical: float) -> float:
-    """Return q_c (MPa), the mean over the last 0.1 m. vertical: stress (kPa)."""
-    history = run.results.history
-    force = final_mean(history["penetration_m"], history["tip_force_N"], 0.1)
-    # forces are those beyond the surrounding pressure
-    return force / (pi * DIAMETER**2 / 4) / 1e6 + vertical / 1e3
 
 
 def table_of(study: Study) -> pd.DataFrame:

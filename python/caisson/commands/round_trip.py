@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from caisson import disk
 from caisson.curves import window_means
 from caisson.disk import InputError
+from caisson.design import own_cone
 from caisson.design.interpretation import Interpretation
 from caisson.paths import short
 from caisson.results import read_table
@@ -20,8 +21,7 @@ from caisson.suggest.cone import layers_of
 from caisson.table import write_csv
 from caisson.template import template
 
-DIAMETER = 2 * 0.0357  # m, for a quarter of the time of the usual cone
-FRICTION = 10.4  # degrees, as of the computed cones (caisson.design.own_cone)
+DIAMETER = 2 * own_cone.DIAMETER  # m, for a quarter of the time
 DEEP = 20 * DIAMETER  # m from the surface and from a boundary, where a cone is deep
 STEP = 0.5  # m, over which resistances are compared
 SCENE, RESULTS, HISTORY = "round_trip.prm", "round_trip", "history.csv"
@@ -91,7 +91,7 @@ class Cone:
         return template(TEMPLATES / "round_trip.prm.jinja").render(
             name=self.found.name,
             diameter=DIAMETER,
-            friction=FRICTION,
+            friction=own_cone.FRICTION,
             deep=DEEP,
             end=self.end,
             layers=layers_of(self.found, min(self.skirt, self.end)),

@@ -211,12 +211,17 @@ def estimates_of(
     return found
 
 
+def deep_rows(ground: Ground, layer: Layer) -> np.ndarray:
+    """Return which rows [n] of a layer of sand count for its own cone."""
+    return own_cone.deep(layer.rows, ground.depth)
+
+
 def cone_rows(
     ground: Ground, layer: Layer, values: Mapping[str, Estimate], growth: float
 ) -> own_cone.Rows:
     """Return the rows of a layer of sand that count for its own cone. growth: of the
     modulus."""
-    rows = own_cone.deep(layer.rows, ground.depth)
+    rows = deep_rows(ground, layer)
     stress = ground.stress[rows] * (1 + 2 * values[K0].best) / 3
     share = along(ground, layer, growth)[rows]
     return own_cone.Rows(stress, ground.resistance[rows], share)
@@ -247,7 +252,7 @@ def answering(
     """Return density and modulus of sand with which a computed cone meets the measured
     resistance; nothing where no row is deep enough. values: of the correlations."""
     density = values[DENSITY].best
-    counts = own_cone.deep(layer.rows, ground.depth)
+    counts = deep_rows(ground, layer)
     if not counts.any():
         return {}
     rows = cone_rows(ground, layer, values, 0.0)

@@ -11,7 +11,7 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
-from caisson.design.cone_estimates import answer_of, density_before
+from caisson.design.cone_estimates import answer_of, deep_rows, density_before
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
@@ -21,7 +21,7 @@ from caisson.design.correlations import computed_cone_factor
 from caisson.design.ground import CLAY, CLAY_LIKE, CONE_FACTOR, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
-from caisson.design.own_cone import DEEP, MOST_RATIO, deep, is_known
+from caisson.design.own_cone import DEEP, MOST_RATIO, is_known
 
 DIGITS = 2  # of a small value, at least
 DOES_NOT_ANSWER = 0.1  # of the resistance of its own cone
@@ -188,7 +188,7 @@ def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
     found = list[str]()
     if e.layer.kind != SAND or test.names[MODULUS] != OWN_CONE:
         return found
-    if not deep(e.layer.rows, test.ground.depth).any():
+    if not deep_rows(test.ground, e.layer).any():
         return [
             f"layer {number} has no row below {DEEP:g} m, where a cone is deep: its"
             f" modulus is that by density, {BY_DENSITY}"

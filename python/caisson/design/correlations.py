@@ -63,6 +63,7 @@ import numpy as np
 from caisson.design.density import bolton_angle, density_of_resistance
 from caisson.design.density import reference_modulus
 from caisson.design.ground import Ground
+from caisson.design.own_cone import DIAMETER
 
 DENSITY, ANGLE = "relative density", "friction angle"
 MODULUS, STRENGTH = "Young's modulus", "undrained strength"
@@ -74,7 +75,7 @@ OWN_CONE, BY_DENSITY = "own-cone", "brinkgreve-2010"
 OWN_CLAY, NKT = "own-cone-clay", "nkt"
 UNCALIBRATED = BY_DENSITY, NKT
 PER_DECADE = 0.144  # of the resistance of clay, for ten times the rate
-CONE_RATE = 0.02 / 0.0357  # 1/s: 20 mm/s over the diameter
+CONE_RATE = 0.02 / DIAMETER  # 1/s: 20 mm/s over the diameter
 WALL_VELOCITY = 1e-3  # m/s
 # E / s_u of clay, for the low, the best and the high estimate. Duncan & Buchignani
 # (1976) have about 300 for a plasticity of 30 to 50 % and an OCR below 3, and less for

@@ -38,7 +38,8 @@ MOST_RATIO = 2.5  # of the modulus to that by density, and its inverse
 DENSITIES = 0.05, 1.0
 EXACT = 1e-6  # of ln q_c
 STEPS = 41  # of the ratio, between which it is interpolated for a row
-DEEP = 1.07  # m, 30 diameters of the usual cone, above which it is not deep
+DIAMETER, FRICTION = 0.0357, 10.4  # m and degrees, of the computed cones
+DEEP = 1.07  # m, 30 diameters, above which a cone is not deep
 
 
 class Sand(NamedTuple):

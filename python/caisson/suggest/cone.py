@@ -9,9 +9,9 @@ from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED
 from caisson.suggest.walls import ADHESION_OF_CLAY
-from caisson.design import correlations, own_cone
+from caisson.design import correlations
 from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
-from caisson.design.cone_estimates import density_before
+from caisson.design.cone_estimates import deep_rows, density_before
 from caisson.design.correlations import DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
@@ -68,18 +68,13 @@ def end_of_test(found: Interpretation, end: float) -> str:
     )
 
 
-def has_deep_rows(found: Interpretation, e: Estimates) -> bool:
-    """Return whether a layer has rows in which a cone is deep."""
-    return bool(own_cone.deep(e.layer.rows, found.ground.depth).any())
-
-
 def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
     source, shown = names[name], SHOWN[name]
     if name == DENSITY and density_before(found.ground, e, found.names) is not None:
         source = found.names[MODULUS]  # which the correlation does not answer
-    if name == REFERENCE and not has_deep_rows(found, e):
+    if name == REFERENCE and not deep_rows(found.ground, e.layer).any():
         source = correlations.BY_DENSITY
     words = text_of(e.values[name], shown, e.layer.top)
     text = f" # FROM CPT ({source}): {shown.head} {words}"
