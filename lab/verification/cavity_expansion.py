@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Expansion of a cylindrical cavity in plane strain, from a0 to a.
+"""Expansion of a cylindrical cavity in plane strain, from a0 to a, and the contraction
+that follows.
 
 Mohr-Coulomb: Yu and Houlsby (1991), Finite cavity expansion in dilatant soils:
 loading analysis, Geotechnique 41, 173-183, doi:10.1680/geot.1991.41.2.173:
 small strains in the elastic part, large ones in the plastic, sigma_zz
-intermediate. Tresca: an incompressible soil, elastic beyond the plastic radius.
+intermediate. Contraction: derived here for small strains, about the stress that the
+expansion has left. Tresca: an incompressible soil, elastic beyond the plastic radius.
 
 SI units, angles in degrees; pressures positive in compression.
 """
@@ -12,6 +14,10 @@ import argparse
 from math import cos, exp, inf, log, radians, sin
 from pathlib import Path
 from typing import Protocol
+
+import numpy as np
+from scipy.integrate import trapezoid
+from scipy.optimize import brentq
 
 from caisson.results import Table, read_table
 
@@ -21,6 +27,10 @@ class Cavity(Protocol):
 
     def pressure(self, ratio: float) -> float:
         """Return the pressure at this a / a0."""
+
+    def contracted(self, pressure: float, share: float) -> float:
+        """Return the pressure after a contraction by a share of the radius, from the
+        pressure of the expansion."""
 
 
 class MohrCoulomb:
@@ -41,7 +51,7 @@ class MohrCoulomb:
         alpha = (1 + sin(phi)) / (1 - sin(phi))
         beta = (1 + sin(psi)) / (1 - sin(psi))
         self.p0, self.alpha, self.beta = p0, alpha, beta
-        self.shear = youngs / (2 * (1 + nu))
+        self.shear, self.nu = youngs / (2 * (1 + nu)), nu
         self.strength = 2 * cohesion * cos(phi) / (1 - sin(phi))
         load = self.strength + (alpha - 1) * p0
         self.delta = load / (2 * (1 + alpha) * self.shear)
@@ -91,6 +101,36 @@ class MohrCoulomb:
             low, high = (middle, high) if self.ratio(middle) < ratio else (low, middle)
         return low
 
+    def contracted(self, pressure: float, share: float) -> float:
+        """Return the pressure after a contraction by a share of the radius, from the
+        pressure of the expansion, where the whole way is within its plastic zone.
+
+        With c cot(phi) added to all stresses, sigma_r = p (a/r)^(1 - 1/alpha) and
+        sigma_t = sigma_r/alpha at first. The soil unloads elastically, by -A/r^2 and
+        A/r^2, until sigma_t = alpha sigma_r; inside a radius R it then yields again:
+        sigma_r grows as r^(alpha - 1), and u' + beta u/r is that of elastic strains.
+        """
+        shift = self.strength / (self.alpha - 1)
+        alpha, beta, start = self.alpha, self.beta, pressure + shift
+
+        def state(radius: float) -> tuple[float, float]:
+            """Return pressure and share where soil yields again to radius/a."""
+            r = np.linspace(1, radius, 2001)
+            before = start * r ** (1 / alpha - 1)
+            now = before[-1] / alpha * (r / radius) ** (alpha - 1)
+            radial, around = now - before, alpha * now - before / alpha
+            # compression positive, sigma_zz = nu (sigma_r + sigma_t) beyond its start
+            mean = self.nu * (radial + around)
+            strain = (radial - mean + beta * (around - mean)) / (2 * self.shear)
+            edge = before[-1] * (1 - 1 / alpha) / (2 * self.shear)
+            inward = edge * radius ** (beta + 1) - trapezoid(strain * r**beta, r)
+            return float(now[0]) - shift, float(inward)
+
+        if share <= start * (1 - 1 / alpha) / (2 * self.shear):
+            return pressure - 2 * self.shear * share
+        radius = brentq(lambda x: state(x)[1] - share, 1, 100)
+        return state(radius)[0]
+
 
 class Tresca:
     """Incompressible: p - p0 = su (1 + ln(G/su (1 - (a0/a)^2)))."""
@@ -105,19 +145,28 @@ class Tresca:
         elastic = strain <= 1  # logarithmic strain, to its first order
         return self.p0 + self.strength * (strain if elastic else 1 + log(strain))
 
+    def contracted(self, pressure: float, share: float) -> float:
+        """Return the pressure after a contraction; see MohrCoulomb."""
+        strain = self.shear / self.strength * share
+        change = strain if strain <= 1 else 1 + log(strain)
+        return pressure - 2 * self.strength * change
+
 
 def comparison(history: Table, soil: Cavity, radius: float) -> list[list[float]]:
     """Return the rows a/a0, pressure computed, exact, and their difference (a
     share of the exact one).
 
-    history: of a cylinder of this radius a0 that grows.
+    history: of a cylinder of this radius a0 that grows, and may shrink at last.
     """
     growth = history["penetration_m"]
+    widest = 1 + growth.max() / radius
     rows = []
     # a row is the mean since the row before
     for i, found in enumerate(history["cavity_pressure_Pa"][1:]):
         ratio = 1 + 0.5 * (growth[i] + growth[i + 1]) / radius
         exact = soil.pressure(ratio)
+        if i + 1 > growth.argmax():
+            exact = soil.contracted(soil.pressure(widest), log(widest / ratio))
         rows.append([ratio, float(found), exact, float(found / exact - 1)])
     return rows
 

@@ -327,6 +327,30 @@ class CavityExpansion(unittest.TestCase):
         elastic = 1e5 + 5e6 * (1 - 1.001**-2)
         self.assertAlmostEqual(soil.pressure(1.001), elastic, places=6)
 
+    def test_contraction(self) -> None:
+        """With nu = 0.5 and psi = 0 no volume changes, and of a radius R of new yield
+        the share u/a and the pressure have a closed form; before it, p - 2 G u/a."""
+        soil, start, shear = MohrCoulomb(0, 15e6, 0.5, 0, 30, 0), 6e5, 5e6
+        self.assertAlmostEqual(soil.contracted(start, 0.01), 5e5)
+        for radius in (1.5, 4.0):
+            edge = start * radius ** (-2 / 3)  # alpha is 3
+            share = edge * 2 / 3 * radius**2 / (2 * shear)
+            pressure = edge / 3 / radius**2
+            found = soil.contracted(start, share)
+            self.assertAlmostEqual(found / pressure, 1, places=5)
+
+    def test_contraction_with_cohesion(self) -> None:
+        """c cot(phi) shifts all pressures; of a small angle it is Tresca's law."""
+        sand, soil = (MohrCoulomb(0, 13e6, 0.3, c, 30, 10) for c in (0, 1e4))
+        shift = 1e4 / np.tan(np.radians(30))
+        for share in (0.02, 0.08):
+            found = soil.contracted(6e5 - shift, share) + shift
+            self.assertAlmostEqual(found / sand.contracted(6e5, share), 1, places=9)
+        clay, tresca = MohrCoulomb(0, 15e6, 0.5, 1e5, 0.01, 0), Tresca(0, 5e6, 1e5)
+        for share in (0.01, 0.1):
+            exact = tresca.contracted(5e5, share)
+            self.assertAlmostEqual(clay.contracted(5e5, share), exact, delta=300)
+
     def test_comparison(self) -> None:
         """Rows are compared in the middle of their interval."""
         soil = Tresca(0, 5e6, 1e5)
