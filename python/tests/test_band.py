@@ -180,7 +180,7 @@ class Page(WithPage):
                 self.assertLess(error, 1e-2 * slope)
         axes = Figure().subplots()
         self.assertEqual(len(plotted.draw(axes, run, "total_force_N", "total")), 2)
-        (curve,) = content.range_curve(run, "total_force_N", "total")
+        _, curve = content.range_curve(run, "total_force_N", "total")
         self.assertTrue(curve["shade"])
 
     def test_only_of_this_caisson(self) -> None:

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from caisson.commands import cpt_page as page
-from caisson.parameters.methods import Answers, depths_of_bars
+from caisson.parameters.methods import depths_of_bars
 
 
 class Page(unittest.TestCase):
@@ -28,21 +28,6 @@ class Page(unittest.TestCase):
             "houlsby_byrne": "houlsby_byrne",
         }.items():
             self.assertEqual(page.with_subscripts(text), shown)
-
-    def test_bar(self) -> None:
-        """Mesh 5 %, model hypot(8, 13) = 15.3 %, ground -20 and +30 %: together -25.6
-        and +34.0 % of 10 MN."""
-        names, depth = ["low", "best", "high"], np.array([1.0, 4.7])
-        computed = np.array([[1e6, 8e6], [1e6, 10e6], [1e6, 13e6]])
-        said = page.bar_of(Answers([], names, depth, computed, []), 5)
-        for words in (
-            "At 4.7 m the total force is 10 MN, from 7.43 to 13.4 MN",
-            "the ground -20 and +30 %",
-            "model ±15 %",
-        ):
-            self.assertIn(words, said)
-        some = Answers([], names[:2], depth, computed[:2], [])
-        self.assertEqual(page.bar_of(some, 5), "")
 
     def test_depths_of_bars(self) -> None:
         """Round ones and the last, none just above it."""

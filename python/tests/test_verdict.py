@@ -177,8 +177,9 @@ class Verdicts(WithPage):
         self.assertEqual((self.path / "run.json").read_bytes(), before)
         known = json.loads((self.path / "verdict.json").read_text(encoding="utf-8"))
         self.assertEqual(known.pop("verdict"), text)
-        rows = known.pop("limits")
+        rows, ends = known.pop("limits"), known.pop("uncertainty")
         self.assertEqual(known, {})
+        self.assertAlmostEqual(ends[-1]["value_Pa"], 30e3, delta=50)
         last = rows[-1]
         self.assertEqual((last["penetration_m"], last["factor"]), (4.5, 1.0))
         self.assertEqual(last["governed_by"], "piping, Houlsby & Byrne")

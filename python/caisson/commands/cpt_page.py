@@ -4,7 +4,6 @@ forces of all estimates beside the design methods, on one page."""
 import argparse
 import html
 import re
-from math import hypot
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +11,12 @@ import numpy as np
 from caisson.commands.round_trip import Cone
 from caisson.template import picture_of, template
 from caisson import disk, plot, report, study_command
+from caisson.band import BEST, ESTIMATES
 from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
-from caisson.verdict import theory
+from caisson.verdict import theory, uncertainty
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 from caisson.design.reasons import text_of
@@ -24,9 +24,6 @@ from caisson.design.reasons import text_of
 HERE = Path(__file__).parent
 NAME = "report.html"
 WIDEST = 5  # layers side by side
-# shares of the force by which the model may be wrong (doc/validation.md): the forces on
-# a model caisson, and a cone computed in the ground of the scene
-OF_MODEL = {"model caisson": 0.08, "computed cone": 0.13}
 
 
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
@@ -65,25 +62,14 @@ def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
     return heads, [list(row) for row in zip(*columns)]
 
 
-def bar_of(found: Answers, error: int) -> str:
-    """Return the total force at the end with what mesh, ground and model may change, in
-    a sentence; nothing where an estimate is missing. error: of the mesh, in %."""
-    if not {"low", "best", "high"} <= set(found.names):
+def uncertainty_in_words(found: Answers, error: int) -> str:
+    """Return how far the force, or the required suction, of the best estimate may be
+    wrong; nothing where an estimate is missing. error: asked of the mesh, in %."""
+    members = {x: run.run.results for x, run in zip(found.names, found.runs)}
+    if set(members) != set(ESTIMATES):
         return ""
-    ends = dict(zip(found.names, found.computed[:, -1] / 1e6))
-    best, mesh, model = ends["best"], error / 100, hypot(*OF_MODEL.values())
-    if not np.isfinite(list(ends.values())).all() or best <= 0:
-        return ""
-    ground = min(ends.values()) / best - 1, max(ends.values()) / best - 1
-    below, above = (hypot(mesh, model, share) for share in ground)
-    return (
-        f"At {text_of(found.depth[-1])} m the total force is {text_of(best)} MN, from"
-        f" {text_of(best * max(1 - below, 0))} to {text_of(best * (1 + above))} MN:"
-        f" mesh and steps ±{error} % (asked for, not computed), the ground"
-        f" {100 * ground[0]:+.0f} and {100 * ground[1]:+.0f} % (low and high estimate),"
-        f" the model ±{100 * model:.0f} % (a model caisson and a computed cone beside"
-        " measurements), together the root of the sum of their squares"
-    )
+    ends = uncertainty.at_end(members, error / 100)
+    return report.band.uncertainty_in_words(ends[-1], members[BEST].shown)
 
 
 def range_of(low: float, high: float) -> str:
@@ -174,7 +160,7 @@ def write(cone: Cone, file: Path, facts: list[tuple[str, str]], error: int) -> P
             troubles=troubles_of(outcomes),
             soil=by_layer(*cone_texts.cells_of(test.layers)),
             remarks=cone_texts.remarks(test),
-            bar=bar_of(answers, error),
+            uncertainty=uncertainty_in_words(answers, error),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),

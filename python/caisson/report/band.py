@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What low and high resistance of the soil change on the page of the best estimate: the
-verdict, the penetration by weight, and the required suction at the quarters."""
+verdict, the penetration by weight, and the required suction at the quarters; and how
+far the result may be wrong in all."""
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,18 @@ from caisson.report.verdict import Verdict, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
 from caisson.results import Results
 from caisson.shown import Units
+from caisson.verdict.uncertainty import (
+    GROUND,
+    MESH,
+    NAMES,
+    PROGRAM,
+    Part,
+    Uncertainty,
+    at_end,
+)
 
 REST = "Self-weight penetration"  # the card
+IN_WORDS = {MESH: "mesh and steps", GROUND: "the ground", PROGRAM: "the model"}
 
 
 def ends_of(run: Results) -> dict[str, Results]:
@@ -76,6 +87,44 @@ def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]
     if not ends:
         return cards
     return [(*c[:2], "; ".join(ends)) if c[0] == REST else c for c in cards]
+
+
+def part_in_words(part: Part, value: float) -> str:
+    """Return by what share of a value a part changes it at the last depth."""
+    below, above = (
+        f"{100 * side[-1] / value:.0f}" for side in (part.below, part.above)
+    )
+    share = f"±{above}" if below == above else f"−{below} and +{above}"
+    return f"{IN_WORDS[part.name]} {share} % ({part.source})"
+
+
+def uncertainty_in_words(found: Uncertainty, shown: Units) -> str:
+    """Return in two sentences how far the value at the last depth may be wrong; nothing
+    of a value of 0."""
+    name, unit = NAMES[found.column]
+    value, low, high = (x[-1] / 1e3 for x in (found.values, found.low, found.high))
+    if value <= NOTHING:
+        return ""
+
+    def text(x: float) -> str:
+        return shown.force(x) if unit == "N" else shown.words(x, "kPa", ".3g")
+
+    parts = ", ".join(part_in_words(part, 1e3 * value) for part in found.parts)
+    known = [part.name for part in found.parts]
+    missing = [words for name, words in IN_WORDS.items() if name not in known]
+    without = f" Not in it: {' and '.join(missing)}." if missing else ""
+    return (
+        f"At {shown.place(found.depth[-1])} the {name} is {text(value)}, and"
+        f" {text(low)} to {text(high)} with its uncertainty: {parts}; the root of the"
+        f" sum of squares.{without}"
+    )
+
+
+def uncertainty_of(run: Results) -> str:
+    """Return how far the required suction of a run, or its force where there is none,
+    may be wrong where the ways of all estimates end."""
+    found = [uncertainty_in_words(x, run.shown) for x in at_end(band_of(run))]
+    return next(filter(None, reversed(found)), "")
 
 
 def required_at(member: Results, depth: float, shown: Units) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import depths_of
+from caisson.band import band_of
 from caisson.curves import error_band
 from caisson.plot import forces
 from caisson.verdict import design, suction_methods, theory
@@ -18,6 +19,7 @@ from caisson.results import Results, Table
 from caisson.table import by_rows
 from caisson.shown import Units, units_for
 from caisson.verdict.installation import NOTHING, Installation, texts_of
+from caisson.verdict.uncertainty import over_depth
 from caisson.evaluation import is_pull
 from caisson.report.pull import PULL, pull_parts
 
@@ -106,13 +108,18 @@ def method_curves(run: Results, deepest: float) -> list[Curve]:
 
 
 def range_curve(run: Results, column: str, name: str) -> list[Curve]:
-    """Return the area between low and high resistance; nothing without a band."""
-    found = range_of(run, column)
+    """Return the area between low and high resistance, within that of all parts of the
+    uncertainty; nothing without a band."""
+    found, whole = range_of(run, column), over_depth(band_of(run), column)
     if found is None:
         return []
     depth, low, high = found
-    area = band(f"{name}, {LABEL}", "black", low, high, depth)
-    return [area | {"shade": True}]
+    areas = [band(f"{name}, {LABEL}", "black", low, high, depth)]
+    if whole is not None:
+        ends = whole.low / 1e3, whole.high / 1e3
+        words = " and ".join(part.name for part in whole.parts)
+        areas.insert(0, band(f"{name}, {words}", "black", *ends, whole.depth))
+    return [area | {"shade": True} for area in areas]
 
 
 def force_curves(run: Results, end: float | None = None) -> list[Curve]:

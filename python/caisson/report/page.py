@@ -255,13 +255,14 @@ def of_installation(
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     if found is None:
-        names = ("tables", "quarters", "bar", "factors", "remedies")
+        names = ("tables", "quarters", "bar", "uncertainty", "factors", "remedies")
         return dict.fromkeys(names, "")
     planned = scene.end_of(run) or float(found.depth[-1])
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": installation.bar_in_words(run, found),
+        "uncertainty": band.uncertainty_of(run),
         "factors": " ".join(
             filter(
                 None,

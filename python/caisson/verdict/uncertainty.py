@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How far a computed force or suction may be wrong: by mesh and steps, by the ground,
+and by the model.
+
+The three act by themselves, so that u^2 = u_mesh^2 + u_ground^2 + u_model^2 (JCGM
+100:2008, 5.1.2), below and above the value of the best estimate each. The mesh has the
+error bar of the run; the ground the runs of low and high resistance, which are about a
+standard deviation away where they come from a cone test; the model a share of the force
+by which the program misses measurements (doc/validation.md).
+"""
+from collections.abc import Mapping
+from math import hypot
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from caisson import evaluation
+from caisson.band import BEST
+from caisson.error_bounds import BOUNDED
+from caisson.evaluation import DEPTH, SUCTION, TOTAL
+from caisson.results import Results
+from caisson.verdict.installation import plug_area
+from caisson.verdict.outcome import depth_of
+
+# shares of the force: a model caisson beside its tests, and a cone in the ground of
+# the scene beside its test
+OF_MODEL = {"a model caisson": 0.08, "a computed cone": 0.13}
+MODEL = hypot(*OF_MODEL.values())
+NAMES = {TOTAL: ("total force", "N"), SUCTION: ("required suction", "Pa")}
+MESH, GROUND, PROGRAM = "mesh", "ground", "model"
+POINTS = 60  # of a curve
+Members = Mapping[str, Results]  # by estimate, the best one among them
+
+
+class Part(NamedTuple):
+    """By how much values [n] may be too high (below) and too low (above), in their
+    unit, and whence that is known."""
+
+    name: str
+    below: np.ndarray
+    above: np.ndarray
+    source: str
+
+
+class Uncertainty(NamedTuple):
+    """Values [n] of a column of history.csv at depths [n] (m), in its unit, and the
+    parts of their uncertainty that are known."""
+
+    column: str
+    depth: np.ndarray
+    values: np.ndarray
+    parts: list[Part]
+
+    @property
+    def low(self) -> np.ndarray:
+        """The lower end [n], not below 0."""
+        squares = sum(part.below**2 for part in self.parts)
+        return np.maximum(self.values - np.sqrt(squares), 0)
+
+    @property
+    def high(self) -> np.ndarray:
+        """The upper end [n], not below 0."""
+        squares = sum(part.above**2 for part in self.parts)
+        return np.maximum(self.values + np.sqrt(squares), 0)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what there is at the last depth, by names with their units."""
+        values = np.maximum(self.values, 0)
+        columns = {"low": self.low, "value": values, "high": self.high}
+        for part in self.parts:
+            sides = {"below": part.below, "above": part.above}
+            columns |= {f"{part.name}_{side}": x for side, x in sides.items()}
+        unit = NAMES[self.column][1]
+        numbers = {f"{name}_{unit}": float(x[-1]) for name, x in columns.items()}
+        return {"quantity": self.column, DEPTH: float(self.depth[-1]), **numbers}
+
+
+def values_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
+    """Return the means of a column at depths [n] (m), nan where the run has not been,
+    or suction is not feasible; a suction is below 0 where the weight suffices."""
+    numbers = evaluation.at_depths(run, at)
+    depth = run.history[DEPTH]
+    within = (at >= depth.min()) & (at <= (depth_of(run) or depth.max()) + 1e-6)
+    return np.where(within, numbers[column], np.nan)
+
+
+def of_mesh(run: Results, column: str, at: np.ndarray, values: np.ndarray) -> Part:
+    """Return what the error bar of a run says; nan without one."""
+    numbers = evaluation.at_depths(run, at)
+    (quantity,) = (q for q in BOUNDED if q.column() == column)
+    ends = [numbers.get(quantity.column(side)) for side in ("low", "high")]
+    low, high = (np.full(len(at), np.nan) if end is None else end for end in ends)
+    below, above = np.maximum(values - low, 0), np.maximum(high - values, 0)
+    return Part(MESH, below, above, "error bar")
+
+
+def of_ground(
+    members: Members, column: str, at: np.ndarray, values: np.ndarray
+) -> Part:
+    """Return what low and high resistance change; nan without their runs."""
+    runs = [run for name, run in members.items() if name != BEST]
+    ends = [values_of(run, column, at) for run in runs]
+    ends = ends if len(ends) == 2 else [np.full(len(at), np.nan)]
+    below = np.maximum(values - np.min(ends, axis=0), 0)
+    above = np.maximum(np.max(ends, axis=0) - values, 0)
+    return Part(GROUND, below, above, "low and high resistance")
+
+
+def of_share(
+    name: str, run: Results, column: str, values: np.ndarray, share: float, source: str
+) -> Part:
+    """Return a part that is a share of the force behind values [n]: of a required
+    suction, which bears the resistance less the weight, more than that share of it."""
+    force = values
+    if column == SUCTION:
+        weight = float(run.scene.get("submerged_weight_N") or 0)
+        force = values + weight / plug_area(run.scene)
+    return Part(name, share * force, share * force, source)
+
+
+def uncertainty_of(
+    members: Members, column: str, at: np.ndarray, mesh: float | None = None
+) -> Uncertainty | None:
+    """Return the uncertainty of a column at depths [n] (m), with the parts that are
+    known at all of them; None where the best run has no such value. mesh: the error
+    that was asked of it, as a share, where it has no error bar."""
+    best = members[BEST]
+    if column not in best.history or not len(at):
+        return None
+    values = values_of(best, column, at)
+    if not np.isfinite(values).all():
+        return None
+    parts = [
+        of_mesh(best, column, at, values),
+        of_ground(members, column, at, values),
+        of_share(PROGRAM, best, column, values, MODEL, " and ".join(OF_MODEL)),
+    ]
+    if mesh is not None and not np.isfinite(parts[0].below).all():
+        source = "asked for, not computed"
+        parts[0] = of_share(MESH, best, column, values, mesh, source)
+    known = [p for p in parts if np.isfinite([p.below, p.above]).all()]
+    return Uncertainty(column, at, values, known)
+
+
+def end_of(members: Members) -> float:
+    """Return the depth (m) where the way of the first of the estimates ends, or its
+    suction."""
+    return min(
+        float(depth_of(run) or run.history[DEPTH].max()) for run in members.values()
+    )
+
+
+def at_end(members: Members, mesh: float | None = None) -> list[Uncertainty]:
+    """Return the uncertainty of the total force and of the required suction there."""
+    at = np.array([end_of(members)])
+    found = [uncertainty_of(members, name, at, mesh) for name in NAMES]
+    return [x for x in found if x is not None]
+
+
+def over_depth(members: Members, column: str) -> Uncertainty | None:
+    """Return the uncertainty of a column down to there."""
+    start = float(members[BEST].history[DEPTH].min())
+    return uncertainty_of(members, column, np.linspace(start, end_of(members), POINTS))

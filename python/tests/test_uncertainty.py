@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How far a force or a suction may be wrong: mesh, ground and model, by hand."""
+import json
+from math import hypot, pi, sqrt
+from typing import Any
+
+import numpy as np
+from synthetic import write_columns
+from test_report import SCENE, SUMMARY, WithPage, leave_run
+
+from caisson import report
+from caisson.band import BEST, HIGH, LOW, band_of, member_of
+from caisson.commands import cpt_page
+from caisson.parameters.methods import Answers
+from caisson.report import content, verdict
+from caisson.results import Results
+from caisson.verdict import uncertainty
+from caisson.verdict.uncertainty import GROUND, MESH, MODEL, PROGRAM
+
+FACTORS = {LOW: 0.7, BEST: 1.0, HIGH: 1.5}
+AREA = pi / 4 * (10 - 2 * 0.04) ** 2  # m2, beneath the lid of SCENE
+AT = np.array([3.0])  # m
+
+
+class Uncertainties(WithPage):
+    """A caisson of 1 MN whose required suction is 10 kPa for each meter below 1.5 m,
+    and its total force 1 MN for each meter; both grow 0.7 times as fast in soft soil
+    and 1.5 times in hard soil."""
+
+    def leave_band(self, *estimates: str) -> Results:
+        """Leave these runs beside the best one; return that."""
+        best = self.path / "own"
+        for estimate in (BEST, *estimates):
+            directory, factor = member_of(best, estimate), FACTORS[estimate]
+            leave_run(directory, SUMMARY)
+            history: dict[str, Any] = dict(Results(directory).history)
+            depth = history["penetration_m"]
+            history["total_force_N"] = 1e6 * factor * depth
+            history["required_suction_Pa"] = 1e4 * (factor * depth - 1.5)
+            write_columns(directory / "history.csv", history)
+        return Results(best)
+
+    def of_suction(self, run: Results) -> uncertainty.Uncertainty:
+        """Return that of the required suction at 3 m."""
+        found = uncertainty.uncertainty_of(band_of(run), "required_suction_Pa", AT)
+        assert found is not None
+        return found
+
+    def test_force(self) -> None:
+        """3 MN: -0.9 and +1.5 of the ground, a share of the model."""
+        members = band_of(self.leave_band(LOW, HIGH))
+        found = uncertainty.uncertainty_of(members, "total_force_N", AT)
+        assert found is not None
+        self.assertEqual([part.name for part in found.parts], [GROUND, PROGRAM])
+        self.assertAlmostEqual(found.low[0] / 1e6, 3 - hypot(0.9, 3 * MODEL), places=4)
+        self.assertAlmostEqual(found.high[0] / 1e6, 3 + hypot(1.5, 3 * MODEL), places=4)
+
+    def test_suction(self) -> None:
+        """15 kPa: -9 and +15 of the ground; the model errs by a share of suction and
+        weight together."""
+        found = self.of_suction(self.leave_band(LOW, HIGH))
+        model = MODEL * (15e3 + SCENE["submerged_weight_N"] / AREA)
+        self.assertAlmostEqual(found.high[0], 15e3 + hypot(15e3, model), delta=1)
+        self.assertAlmostEqual(found.low[0], 15e3 - hypot(9e3, model), delta=1)
+
+    def test_mesh(self) -> None:
+        """An error bar of -2 and +3 kPa is the third part."""
+        run = self.leave_band(LOW, HIGH)
+        ends = {"penetration_m": [0.5, 4.5], "required_suction_below_Pa": [2e3, 2e3]}
+        ends["required_suction_above_Pa"] = [3e3, 3e3]
+        columns = {name: np.array(column) for name, column in ends.items()}
+        write_columns(run.directory / "error_bar.csv", columns)
+        found = self.of_suction(Results(run.directory))
+        model = MODEL * (15e3 + SCENE["submerged_weight_N"] / AREA)
+        self.assertEqual([part.name for part in found.parts], [MESH, GROUND, PROGRAM])
+        most = sqrt(3e3**2 + 15e3**2 + model**2)
+        self.assertAlmostEqual(found.high[0], 15e3 + most, delta=1)
+        least = sqrt(2e3**2 + 9e3**2 + model**2)
+        self.assertAlmostEqual(found.low[0], max(15e3 - least, 0), delta=1)
+
+    def test_what_is_not_known(self) -> None:
+        """Without low and high resistance the page says what its range lacks; one of
+        them is not enough."""
+        for estimates in ((), (LOW,)):
+            run = self.leave_band(*estimates)
+            page = report.write(run.directory).read_text(encoding="utf-8")
+            self.assertIn("Not in it: mesh and steps and the ground.", page)
+        self.assertNotIn("ground", [part.name for part in self.of_suction(run).parts])
+
+    def test_page_and_file(self) -> None:
+        """They have the same numbers where the first run ends, and so has the chart."""
+        run = self.leave_band(LOW, HIGH)
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        verdict.keep(run)
+        text = (run.directory / verdict.NAME).read_text(encoding="utf-8")
+        force, suction = json.loads(text)["uncertainty"]
+        self.assertEqual(force["quantity"], "total_force_N")
+        ends = [suction[f"{end}_Pa"] / 1e3 for end in ("low", "high")]
+        low, high = (f"{end:.3g} kPa" for end in ends)
+        self.assertIn(f"and {low} to {high} with its uncertainty", page)
+        area, inner = content.range_curve(run, "required_suction_Pa", "required")
+        self.assertAlmostEqual(area["to"][-1], suction["high_Pa"] / 1e3, delta=0.05)
+        self.assertLess(inner["to"][-1], area["to"][-1])
+
+    def test_of_a_cone_test(self) -> None:
+        """Its page has the error that was asked of the mesh, 20 % of the force behind
+        30 kPa; nothing without all of the estimates."""
+        run = self.leave_band(LOW, HIGH)
+        members = band_of(run)
+
+        class Of:
+            """A run of a study."""
+
+            def __init__(self, results: Results) -> None:
+                self.run, self.results = self, results
+
+        runs: Any = [Of(member) for member in members.values()]
+        answers = Answers(runs, list(members), AT, np.empty(0), [])
+        said = cpt_page.uncertainty_in_words(answers, 20)
+        self.assertIn("mesh and steps ±29 % (asked for, not computed)", said)
+        fewer = answers._replace(runs=runs[:2], names=list(members)[:2])
+        self.assertEqual(cpt_page.uncertainty_in_words(fewer, 20), "")
