@@ -37,6 +37,8 @@ COMPARISONS = {
     "model_caisson": "model_caisson",
     "pile": "pile",
     "pile_quick": "pile",
+    "ring_over_cone": "ring_over_cone",
+    "shaft_over_base": "shaft_over_base",
 }
 
 

@@ -13,8 +13,8 @@ from caisson.design import cone_texts as tables
 from caisson.suggest import band, cone
 from caisson.design import cone_file, interpretation
 from caisson.disk import InputError
-from caisson.design.cone_estimates import RESISTANCE, Estimate
-from caisson.design.correlations import STRENGTH
+from caisson.design.cone_estimates import REFERENCE, RESISTANCE, Estimate
+from caisson.design.correlations import DENSITY, STRENGTH
 from caisson.design.expression import value_at
 from caisson.design.ground import behavior_of, ground_of, kinds_of
 from made_up_cone import HEAD, WithFiles, options
@@ -240,7 +240,9 @@ class Thin(WithFiles):
             self.assertAlmostEqual(found / strength, 1, delta=0.15)
             self.assertEqual({e.layer.kind for e in whole.layers}, {"sand", "clay"})
             for one, other in zip(whole.layers, part.layers):
-                self.assertEqual(one.values, other.values)
+                # the density of sand is that of the rows that count
+                for name in set(one.values) - {DENSITY, REFERENCE}:
+                    self.assertEqual(one.values[name], other.values[name])
                 self.assertEqual(one.layer.top, other.layer.top)
             self.assertTrue(all(e.layer.top < 7.5 for e in part.layers))
 

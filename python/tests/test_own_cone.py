@@ -15,75 +15,40 @@ from caisson.design.density import bolton_angle, cone_resistance
 from caisson.design.density import reference_modulus
 from lab.validation.cone_density import cavity, cone_density
 from caisson.paths import SCENES
-from made_up_cone import options
+from caisson.design.cone_estimates import ENDS, REFERENCE, Estimates, answer_of
+from caisson.design.correlations import DENSITY
+from made_up_cone import HEAD, options
 
 
-def rows_with(
-    density: float, ratio: float, factor: float = 1.0, growth: float = 0.0
-) -> own_cone.Rows:
-    """Return rows that sand answers, times a factor."""
-    stress = np.array([10e3, 30e3, 100e3])
-    share = 1 + growth * np.arange(3)
-    found = own_cone.computed(density, stress, ratio * share)
-    return own_cone.Rows(stress, factor * found, share)
+STRESS = np.array([10e3, 30e3, 100e3])
 
 
-class Fitted(unittest.TestCase):
-    """From a density and a resistance to a sand."""
+class Answers(unittest.TestCase):
+    """From a resistance to a sand."""
 
-    def test_it_answers(self) -> None:
-        """All rows, with the density that is given, and a modulus that grows."""
-        for density in (0.3, 0.5, 0.75, 0.95):
-            rows = rows_with(density, 0.8, growth=0.2)
-            sand = own_cone.fitted(density, rows)
-            self.assertEqual(sand.density, density)
-            self.assertAlmostEqual(sand.ratio, 0.8, places=6)
-            modulus = 0.8 * reference_modulus(density)
-            self.assertAlmostEqual(sand.modulus / modulus, 1, places=6)
-            np.testing.assert_allclose(rows.excess(*sand), 0, atol=1e-6)
+    def test_densities(self) -> None:
+        """Each row by itself, with the modulus by density."""
+        for density in (0.1, 0.3, 0.5, 0.75, 0.95):
+            resistance = own_cone.computed(density, STRESS, 1.0)
+            found = own_cone.densities(resistance, STRESS)
+            np.testing.assert_allclose(found, density, atol=1e-4)
+            ratios = own_cone.ratios(found, 1.01 * resistance, STRESS)
+            np.testing.assert_array_equal(ratios, 1.0)
 
-    def test_each_row(self) -> None:
-        """The ratio that it needs, within bounds."""
-        rows = rows_with(0.6, 0.7, growth=0.5)
-        found = own_cone.ratios_of_rows(0.6, rows)
-        np.testing.assert_allclose(found, [0.7, 1.05, 1.4], rtol=2e-3)
-        found = own_cone.ratios_of_rows(0.6, rows.times(50))
-        np.testing.assert_allclose(found, own_cone.MOST_RATIO)
+    def test_the_modulus_of_the_densest_and_the_loosest(self) -> None:
+        """It makes up for what they lack, as far as it may."""
+        for end, ratio in ((1.0, 2.0), (0.05, 0.6), (1.0, 5.0)):
+            resistance = own_cone.computed(end, STRESS, ratio)
+            density = own_cone.densities(resistance, STRESS)
+            np.testing.assert_array_equal(density, end)
+            found = own_cone.ratios(density, resistance, STRESS)
+            most = min(ratio, own_cone.MOST_RATIO)
+            np.testing.assert_allclose(found, most, rtol=2e-3)
 
-    def test_it_changes_the_density_where_it_must(self) -> None:
-        """With the stiffest modulus sand becomes denser, with the softest looser."""
-        for factor, is_denser in ((5.0, True), (0.3, False)):
-            rows = rows_with(0.5, 1.0, factor)
-            sand = own_cone.fitted(0.5, rows)
-            self.assertEqual(sand.density > 0.5, is_denser)
-            self.assertAlmostEqual(rows.middle(*sand), 0.0, places=6)
-
-    def test_it_ends_at_the_densest_and_the_loosest(self) -> None:
-        """Where no sand answers."""
-        for factor, density in ((1e3, 1.0), (1e-3, 0.05)):
-            rows = rows_with(0.5, 1.0, factor)
-            sand = own_cone.fitted(0.5, rows)
-            self.assertEqual(sand.density, density)
-            self.assertGreater(abs(rows.middle(*sand)), 0.1)
-
-    def test_low_and_high(self) -> None:
-        """Another resistance is answered by another density; by that of sand as dense
-        as can be by another modulus."""
-        for factor in (0.7, 1.4):
-            rows = rows_with(0.5, 0.9, factor)
-            sand = own_cone.changed(own_cone.Sand(0.5, 0.9), rows)
-            self.assertEqual(sand.ratio, 0.9)
-            self.assertEqual(sand.density > 0.5, factor > 1)
-            self.assertAlmostEqual(rows.middle(*sand), 0.0, places=5)
-        rows = rows_with(1.0, 1.0, 1.3)
-        sand = own_cone.changed(own_cone.Sand(1.0, 1.0), rows)
-        self.assertEqual(sand.density, 1.0)
-        self.assertAlmostEqual(rows.middle(*sand), 0.0, places=5)
-
-    def test_rows_near_the_surface(self) -> None:
-        """They do not count."""
-        depth, every = np.array([0.2, 0.9, 1.1]), np.ones(3, bool)
-        self.assertEqual(list(own_cone.deep(every, depth)), [False, False, True])
+    def test_near_the_surface(self) -> None:
+        """A cone is not deep there."""
+        found = own_cone.is_deep(np.array([0.2, 0.9, 1.1]))
+        self.assertEqual(list(found), [False, False, True])
 
     def test_what_is_known(self) -> None:
         """Between the densities and the stresses of the table."""
@@ -91,14 +56,41 @@ class Fitted(unittest.TestCase):
         for density, stress in ((0.1, 10e3), (0.5, 5e3), (0.5, 200e3)):
             self.assertFalse(own_cone.is_known(density, stress))
 
-    def test_no_modulus_beyond_the_bounds(self) -> None:
-        """Those of all rows of a line, not only of its top."""
-        rows = rows_with(0.5, 1.0, 3.0, growth=1.0)
-        sand = own_cone.fitted(0.5, rows)
-        self.assertLessEqual(
-            (sand.ratio * rows.share).max(), own_cone.MOST_RATIO + 1e-9
-        )
-        self.assertGreater(sand.density, 0.5)
+
+class Layers(unittest.TestCase):
+    """A layer of a test."""
+
+    def layer_of(self, text: str) -> Estimates:
+        """Return the only layer of a table of q_c."""
+        how = options("--soil", "sand", "--tops", "0", "--unit-weight", "19.81")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "test.csv"
+            path.write_text(HEAD + text, encoding="utf-8")
+            found = interpretation.interpret(path, how, None)
+        (e,) = found.layers
+        self.assertAlmostEqual(answer_of(found.ground, e, found.names), 1, 2)
+        return e
+
+    def test_it_answers(self) -> None:
+        """Density is a number or a line, with the modulus by density all along it; low
+        and high estimate differ by the error of a cone, 11 % in q_c, and the rows."""
+        for densities in ((0.6, 0.6), (0.35, 0.75)):
+            depth = np.arange(0.05, 8.0, 0.05)
+            density = np.interp(depth, [0, 8], densities)
+            stress = 1e4 * depth * (1 + 2 * 0.43) / 3
+            resistance = own_cone.computed(density, stress, 1.0)
+            rows = zip(depth, resistance / 1e6)
+            e = self.layer_of("".join(f"{z:.2f},{q:.4f},20,\n" for z, q in rows))
+            share, modulus = e.values[DENSITY], e.values[REFERENCE]
+            for z in (2.0, 7.0):
+                low, best, high = (
+                    share.at(end) * (1 + share.growth * z) for end in ENDS
+                )
+                expected = float(np.interp(z, [0, 8], densities))
+                self.assertAlmostEqual(best, expected, delta=0.03)
+                self.assertTrue(0.02 < best - low < 0.08 and 0.02 < high - best < 0.08)
+            self.assertEqual(modulus.growth, share.growth)
+            self.assertAlmostEqual(modulus.best / reference_modulus(share.best), 1, 3)
 
 
 class Table(unittest.TestCase):

@@ -22,7 +22,7 @@ from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
 from caisson.design.assumed_cone import AssumedCone, Sand
 from caisson.design.expression import value_at
-from caisson.design.cone_estimates import K0, REFERENCE
+from caisson.design.cone_estimates import K0
 from caisson.design.correlations import DENSITY
 
 EXAMPLE = SCENES / "cpt_example.csv"
@@ -264,6 +264,7 @@ class Entries(unittest.TestCase):
             lines = [f"{z:.6f},{q:.6f}" for z, q in rows if z > 0.3]
             path.write_text("\n".join(["depth_m,qc_MPa", *lines]), encoding="utf-8")
             words = ["--soil", "sand", "--unit-weight", "19.88", "--tops", "0"]
+            words.append("--uncalibrated")
             found = interpretation.interpret(path, how_to_read(*words))
         self.assertAlmostEqual(found.layers[0].values[DENSITY].best, 0.75, delta=0.01)
 
@@ -278,32 +279,37 @@ class FromACone(unittest.TestCase):
         layer = cone.layers_of(found, 8.0)[0]
         self.assertEqual(layer.value("Law"), density_law.LAW)
         self.assertEqual(layer.value("Friction angle"), "")
-        share, densest, loosest, k0 = (
-            float(layer.value(name))
-            for name in (
-                density_law.DENSITY,
-                density_law.DENSEST,
-                density_law.LOOSEST,
-                "K0",
-            )
+        middle = best.layer.bottom / 2
+
+        def value(name: str) -> float:
+            found = value_at(layer.value(name), middle, 0.0)
+            assert found is not None
+            return found
+
+        share, densest, loosest = map(
+            value, (density_law.DENSITY, density_law.DENSEST, density_law.LOOSEST)
         )
-        self.assertAlmostEqual(share, best.values[DENSITY].best, places=4)
+        of_test = best.values[DENSITY]
+        expected = of_test.best * (1 + of_test.growth * middle)
+        self.assertAlmostEqual(share, expected, places=4)
         self.assertAlmostEqual(loosest - densest, 0.31, places=3)
         void_ratio = loosest - share * (loosest - densest)
         self.assertAlmostEqual(void_ratio / (1 + void_ratio), best.porosity(), places=3)
-        modulus = value_at(layer.value("Youngs modulus"), 0.0, 0.0) or 0.0
-        self.assertAlmostEqual(modulus / best.values[REFERENCE].best, 1, places=3)
-        self.assertAlmostEqual(k0, best.values[K0].best, places=3)
+        start = value(density_law.REFERENCE_VOID_RATIO)
+        self.assertAlmostEqual(start, void_ratio, places=3)
+        self.assertAlmostEqual(value("Youngs modulus") / (60e6 * share), 1, places=2)
+        self.assertAlmostEqual(value("K0"), best.values[K0].best, places=3)
         remarks = {entry.name: entry.remark for entry in layer.entries}
-        self.assertIn("FROM CPT (jamiolkowski-2003)", remarks[density_law.DENSITY])
-        self.assertIn("FROM CPT (own-cone)", remarks["Youngs modulus"])
+        self.assertIn("FROM CPT (own-cone)", remarks[density_law.DENSITY])
+        self.assertIn("FROM CPT (brinkgreve-2010)", remarks["Youngs modulus"])
 
     def test_choices_of_density(self) -> None:
         """They grow, and the walls do not follow."""
         found = interpretation.interpret(EXAMPLE, READ, 12.0)
         choices, ends = cone.choices_of(found), (density_law.DENSITY, "Youngs modulus")
         names = [f"Soil/Layer {i}/{end}" for i in (1, 2) for end in ends]
-        self.assertEqual(list(choices["best"]), names)
+        start = [f"Soil/Layer {i}/{density_law.REFERENCE_VOID_RATIO}" for i in (1, 2)]
+        self.assertEqual(set(choices["best"]), {*names, *start})
         for entry in names:
             low, best, high = (
                 value_at(str(choices[name][entry]), 2.0, 20e3) or 0.0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How far a force or a suction may be wrong: mesh, ground and model, by hand."""
 import json
-from math import hypot, pi, sqrt
+from math import hypot, pi
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from caisson.verdict.uncertainty import GROUND, MESH, MODEL, PROGRAM
 FACTORS = {LOW: 0.7, BEST: 1.0, HIGH: 1.5}
 AREA = pi / 4 * (10 - 2 * 0.04) ** 2  # m2, beneath the lid of SCENE
 AT = np.array([3.0])  # m
+STEEL = 0.1 * 1.5e6  # N, of both frictions there
 
 
 class Uncertainties(WithPage):
@@ -47,21 +48,24 @@ class Uncertainties(WithPage):
         return found
 
     def test_force(self) -> None:
-        """3 MN: -0.9 and +1.5 of the ground, a share of the model."""
+        """3 MN: -0.9 and +1.5 of the soil, with a tenth of the friction on steel, and a
+        share of the model."""
         members = band_of(self.leave_band(LOW, HIGH))
         found = uncertainty.uncertainty_of(members, "total_force_N", AT)
         assert found is not None
         self.assertEqual([part.name for part in found.parts], [GROUND, PROGRAM])
-        self.assertAlmostEqual(found.low[0] / 1e6, 3 - hypot(0.9, 3 * MODEL), places=4)
-        self.assertAlmostEqual(found.high[0] / 1e6, 3 + hypot(1.5, 3 * MODEL), places=4)
+        rest = 3 * MODEL, STEEL / 1e6
+        self.assertAlmostEqual(found.low[0] / 1e6, 3 - hypot(0.9, *rest), places=4)
+        self.assertAlmostEqual(found.high[0] / 1e6, 3 + hypot(1.5, *rest), places=4)
 
     def test_suction(self) -> None:
         """15 kPa: -9 and +15 of the ground; the model errs by a share of suction and
         weight together."""
         found = self.of_suction(self.leave_band(LOW, HIGH))
         model = MODEL * (15e3 + SCENE["submerged_weight_N"] / AREA)
-        self.assertAlmostEqual(found.high[0], 15e3 + hypot(15e3, model), delta=1)
-        self.assertAlmostEqual(found.low[0], 15e3 - hypot(9e3, model), delta=1)
+        rest = model, STEEL / AREA
+        self.assertAlmostEqual(found.high[0], 15e3 + hypot(15e3, *rest), delta=1)
+        self.assertAlmostEqual(found.low[0], 15e3 - hypot(9e3, *rest), delta=1)
 
     def test_mesh(self) -> None:
         """An error bar of -2 and +3 kPa is the third part."""
@@ -73,9 +77,9 @@ class Uncertainties(WithPage):
         found = self.of_suction(Results(run.directory))
         model = MODEL * (15e3 + SCENE["submerged_weight_N"] / AREA)
         self.assertEqual([part.name for part in found.parts], [MESH, GROUND, PROGRAM])
-        most = sqrt(3e3**2 + 15e3**2 + model**2)
+        most = hypot(3e3, 15e3, model, STEEL / AREA)
         self.assertAlmostEqual(found.high[0], 15e3 + most, delta=1)
-        least = sqrt(2e3**2 + 9e3**2 + model**2)
+        least = hypot(2e3, 9e3, model, STEEL / AREA)
         self.assertAlmostEqual(found.low[0], max(15e3 - least, 0), delta=1)
 
     def test_what_is_not_known(self) -> None:

@@ -6,20 +6,18 @@ are about one standard deviation away: the quantiles of 16 and 84 % of the rows,
 scatter of the correlation, as the root of the sum of their squares. They are estimates
 of the mean of a layer from one test, not characteristic values of a code.
 
-Density and modulus of sand answer the cone test together (caisson.design.own_cone): for
-low and high estimate it is the quantile of its rows about the computed resistance, and
-the error of a cone.
-
 The strength of clay is a straight line over the depth where the rows of a layer are
 nearer to one than to one value; then low, best and high are lines, too, and the
 quantiles are those of the rows as shares of the line. The line has the least sum of
-differences as shares of it, found by weighted least squares.
+differences as shares of it, found by weighted least squares. So is the density of sand
+that answers its cone test (caisson.design.own_cone), and its modulus with it; rows
+where a cone is not deep count only where there are no others.
 
 SI units; relative density is a share of 1, angles are in degrees.
 """
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import exp, hypot, inf
+from math import hypot, inf
 
 import numpy as np
 
@@ -49,8 +47,6 @@ LIMITS: dict[str, Limits] = {DENSITY: (0.0, 1.0), ANGLE: correlations.ANGLES}
 THINNEST_LINE, FEWEST_ROWS = 1.0, 10  # m, and rows of a layer with a line
 LEAST_GROWTH, LEAST_GAIN = 0.15, 0.9  # of the middle; of the difference without a line
 LEAST_SHARE, NEAREST, TINY = 0.05, 1e-3, 1e-3  # of the middle; of a row; Pa
-LEAST_CHANGE = 5e-3  # of a relative density
-LEAST_OF_MODULUS = 0.5  # of the middle, where it answers the cone
 ROUNDS_OF_LINE = 20
 # what a kind of soil has
 HAS = {
@@ -88,10 +84,12 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Estimates:
-    """A layer with the estimates of its parameters by name."""
+    """A layer with the estimates of its parameters by name; deepest: the depth (m) of
+    the last row that counts for the density of sand."""
 
     layer: Layer
     values: Mapping[str, Estimate]
+    deepest: float = inf
 
     def porosity(self) -> float:
         """Return the porosity at which water and quartz have the unit weight."""
@@ -177,97 +175,88 @@ OF_CLAY = OF_SAND | {
     K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
 FUNCTIONS = {SAND: OF_SAND, SILT: OF_SAND, CLAY: OF_CLAY}
-OF_STRENGTH = (STRENGTH, MODULUS)  # grow together
+# those that grow together
+GROW = {CLAY: (STRENGTH, MODULUS), SAND: (DENSITY, REFERENCE), SILT: ()}
+
+
+def rows_of(
+    ground: Ground, layer: Layer, name: str, names: dict[str, str], deepest: float
+) -> np.ndarray:
+    """Return which rows [n] of a layer count for a parameter: for the density of sand
+    those down to the deepest (m), where a cone is deep."""
+    if names[DENSITY] != correlations.OWN_CONE or name not in GROW[SAND]:
+        return layer.rows
+    near = layer.rows & (ground.depth <= deepest)
+    rows = near if near.any() else layer.rows
+    deep = rows & own_cone.is_deep(ground.depth)
+    return deep if deep.any() else rows
+
+
+def growth_of(
+    ground: Ground, layer: Layer, names: dict[str, str], deepest: float
+) -> float:
+    """Return how strength of clay, or density of sand that answers its cone, grows."""
+    if layer.kind == CLAY:
+        return growth_in(ground, layer, correlations.strengths_of(ground, names, BEST))
+    if layer.kind == SILT or names[DENSITY] != correlations.OWN_CONE:
+        return 0.0
+    rows = rows_of(ground, layer, DENSITY, names, deepest)
+    counts = replace(layer, rows=rows, bottom=min(layer.bottom, deepest))
+    return growth_in(ground, counts, correlations.densities_of(ground, names, BEST))
 
 
 def estimates_of(
-    ground: Ground, layers: Sequence[Layer], names: dict[str, str]
+    ground: Ground,
+    layers: Sequence[Layer],
+    names: dict[str, str],
+    deepest: float = inf,
 ) -> list[Estimates]:
-    """Return the estimates of each layer. names: the correlation of each quantity."""
+    """Return the estimates of each layer. names: the correlation of each quantity;
+    deepest: the depth (m) down to which the density of sand is to be right."""
     measured = {RESISTANCE: ground.resistance, WEIGHT: ground.unit_weight}
     if not np.isnan(ground.index).all():
         measured[INDEX] = ground.index
+    every = {
+        (kind, name): [
+            FUNCTIONS[kind][name](ground, names, end) for end in ENDS.values()
+        ]
+        for kind in {layer.kind for layer in layers}
+        for name in HAS[kind]
+    }
     found = []
     for layer in layers:
-        rows, values = layer.rows, {}
+        values = {}
         for name, column in measured.items():
-            values[name] = combined(column[rows], column[rows], column[rows], ANY)
-        functions = FUNCTIONS[layer.kind]
-        strength = correlations.strengths_of(ground, names, BEST)
-        slope = growth_in(ground, layer, strength) if layer.kind == CLAY else 0.0
+            column = column[layer.rows]
+            values[name] = combined(column, column, column, ANY)
+        slope = growth_of(ground, layer, names, deepest)
         for name in HAS[layer.kind]:
-            growth = slope if name in OF_STRENGTH else 0.0
+            growth = slope if name in GROW[layer.kind] else 0.0
+            rows = rows_of(ground, layer, name, names, deepest)
             share = along(ground, layer, growth)[rows]
-            low, best, high = [
-                functions[name](ground, names, end)[rows] / share
-                for end in ENDS.values()
-            ]
-            limits = LIMITS.get(name, ANY)
-            found_here = combined(best, low, high, limits)
+            low, best, high = [x[rows] / share for x in every[layer.kind, name]]
+            found_here = combined(best, low, high, LIMITS.get(name, ANY))
             values[name] = replace(found_here, growth=growth)
-        if layer.kind == SAND and names[MODULUS] == correlations.OWN_CONE:
-            values |= answering(ground, layer, values)
-        found.append(Estimates(layer, values))
+        found.append(Estimates(layer, values, deepest))
     return found
 
 
-def deep_rows(ground: Ground, layer: Layer) -> np.ndarray:
-    """Return which rows [n] of a layer of sand count for its own cone."""
-    return own_cone.deep(layer.rows, ground.depth)
+def is_answered(e: Estimates, ground: Ground, names: dict[str, str]) -> bool:
+    """Return whether the density of a layer of sand answers rows of its cone."""
+    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
+    is_own = e.layer.kind == SAND and names[DENSITY] == correlations.OWN_CONE
+    return is_own and bool(own_cone.is_deep(ground.depth[rows]).any())
 
 
-def cone_rows(
-    ground: Ground, layer: Layer, values: Mapping[str, Estimate], growth: float
-) -> own_cone.Rows:
-    """Return the rows of a layer of sand that count for its own cone. growth: of the
-    modulus."""
-    rows = deep_rows(ground, layer)
-    stress = ground.stress[rows] * (1 + 2 * values[K0].best) / 3
-    share = along(ground, layer, growth)[rows]
-    return own_cone.Rows(stress, ground.resistance[rows], share)
-
-
-def density_before(ground: Ground, e: Estimates, names: dict[str, str]) -> float | None:
-    """Return the relative density by the correlation where a layer of sand needs
-    another one to answer its cone, else None."""
-    if e.layer.kind != SAND or names[MODULUS] != correlations.OWN_CONE:
-        return None
-    given = correlations.densities_of(ground, names, BEST)
-    found = ground.median(given, e.layer.rows)
-    return found if abs(found - e.values[DENSITY].best) > LEAST_CHANGE else None
-
-
-def answer_of(ground: Ground, e: Estimates) -> float:
+def answer_of(ground: Ground, e: Estimates, names: dict[str, str]) -> float:
     """Return the resistance that a computed cone meets in a layer of sand over the
-    measured one."""
-    density, modulus = e.values[DENSITY].best, e.values[REFERENCE]
-    rows = cone_rows(ground, e.layer, e.values, modulus.growth)
-    ratio = modulus.best / correlations.reference_modulus(density)
-    return exp(rows.middle(density, float(ratio)))
-
-
-def answering(
-    ground: Ground, layer: Layer, values: Mapping[str, Estimate]
-) -> dict[str, Estimate]:
-    """Return density and modulus of sand with which a computed cone meets the measured
-    resistance; nothing where no row is deep enough. values: of the correlations."""
-    density = values[DENSITY].best
-    counts = deep_rows(ground, layer)
-    if not counts.any():
-        return {}
-    rows = cone_rows(ground, layer, values, 0.0)
-    ratios = np.ones(len(ground.depth))
-    ratios[counts] = own_cone.ratios_of_rows(density, rows)
-    growth = growth_in(ground, replace(layer, rows=counts), ratios, LEAST_OF_MODULUS)
-    rows = cone_rows(ground, layer, values, growth)
-    best = own_cone.fitted(density, rows)
-    scatter = np.quantile(-rows.excess(*best), QUANTILES)
-    shares = [hypot(float(share), *own_cone.ERRORS) for share in scatter]
-    low, high = (
-        own_cone.changed(best, rows.times(exp(sign * share)))
-        for sign, share in zip((-1, 1), shares)
+    measured one, in the middle of the rows that count."""
+    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
+    density, modulus = (
+        e.values[name].best * along(ground, e.layer, e.values[name].growth)[rows]
+        for name in GROW[SAND]
     )
-    return {
-        DENSITY: Estimate(low.density, best.density, high.density),
-        REFERENCE: Estimate(low.modulus, best.modulus, high.modulus, growth),
-    }
+    stress = ground.stress[rows] * (1 + 2 * e.values[K0].best) / 3
+    ratio = modulus / correlations.reference_modulus(density)
+    found = own_cone.computed(density, stress, ratio) / ground.resistance[rows]
+    return float(np.median(found))

@@ -11,17 +11,18 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
-from caisson.design.cone_estimates import answer_of, deep_rows, density_before
+from caisson.design.cone_estimates import answer_of, is_answered
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
-from caisson.design.correlations import BY_DENSITY, CLAY_RATIOS, OWN_CLAY, OWN_CONE
+from caisson.design.correlations import CLAY_RATIOS, IN_CHAMBERS, OWN_CLAY, OWN_CONE
 from caisson.design.correlations import PER_DECADE, WALL_VELOCITY
 from caisson.design.correlations import computed_cone_factor
 from caisson.design.ground import CLAY, CLAY_LIKE, CONE_FACTOR, DRAINED, SAND
 from caisson.design.ground import Ground, kind_of
 from caisson.design.interpretation import Interpretation
-from caisson.design.own_cone import DEEP, MOST_RATIO, is_known
+from caisson.design.own_cone import DEEP, is_known
+from caisson.design.density import reference_modulus
 
 DIGITS = 2  # of a small value, at least
 DOES_NOT_ANSWER = 0.1  # of the resistance of its own cone
@@ -183,26 +184,23 @@ def sources(test: Interpretation) -> list[str]:
 
 
 def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
-    """Return where a layer of sand needs another density to answer its cone test, and
-    where it does not answer it."""
-    found = list[str]()
-    if e.layer.kind != SAND or test.names[MODULUS] != OWN_CONE:
-        return found
-    if not deep_rows(test.ground, e.layer).any():
+    """Return where the density of a layer of sand does not answer its cone test."""
+    if e.layer.kind != SAND or test.names[DENSITY] != OWN_CONE:
+        return []
+    if not is_answered(e, test.ground, test.names):
         return [
             f"layer {number} has no row below {DEEP:g} m, where a cone is deep: its"
-            f" modulus is that by density, {BY_DENSITY}"
+            f" relative density is that of {IN_CHAMBERS}"
         ]
-    density = e.values[DENSITY].best
-    before = density_before(test.ground, e, test.names)
-    if before is not None:
+    found, density = list[str](), e.values[DENSITY].best
+    ratio = e.values[REFERENCE].best / float(reference_modulus(density))
+    if abs(ratio - 1) > DOES_NOT_ANSWER:
         found.append(
-            f"layer {number}: with a modulus within a factor of {MOST_RATIO:g} of that"
-            " by density it does not answer its cone; its relative density is"
-            f" {100 * density:.3g} %, and not the {100 * before:.3g} % of"
-            f" {test.names[DENSITY]}"
+            f"layer {number}: with a relative density of {100 * density:.0f} % alone a"
+            f" cone does not meet the measured resistance; its modulus is {ratio:.2f}"
+            " times that by density"
         )
-    ratio = answer_of(test.ground, e)
+    ratio = answer_of(test.ground, e, test.names)
     if abs(ratio - 1) > DOES_NOT_ANSWER:
         found.append(
             f"layer {number}: no sand of this law answers its cone; a computed cone"

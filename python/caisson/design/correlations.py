@@ -8,6 +8,9 @@ sigma'_m = sigma'_v (1 + 2 K_0)/3. Formulas are those of the papers as two publi
 programs and commercial manuals quote them, not copied from the papers.
 
 Relative density D_r of silica sand
+    own-cone           D_r in which a cone that the program pushes into the ground of
+        the scene meets the measured resistance (caisson.design.own_cone); scatter: the
+        error of a cone, 4 %, and of the table, 10 % in q_c
     jamiolkowski-2003  D_r = ln(q_c/p_a / (24.94 (sigma'_m/p_a)^0.46)) / 2.96
         Jamiolkowski, Lo Presti & Manassero (2003), ASCE GSP 119, p. 201; chamber tests
         on dry Ticino, Toyoura and Hokksund sand, sigma'_v 50 to 400 kPa, K_0 0.4 to
@@ -15,8 +18,8 @@ Relative density D_r of silica sand
     baldi-1986         D_r = ln(q_c / (157 sigma'_v^0.55)) / 2.41, in kPa
         Baldi et al. (1986), 4th Int. Geotech. Seminar, Singapore; normally consolidated
         Ticino sand
-    Scatter: a factor of 1.3 in q_c. No source states it: it is the difference of the
-    two formulas. It does not count with own-cone, which makes up for the density.
+    Scatter of both: a factor of 1.3 in q_c. No source states it: it is the difference
+    of the two formulas
 
 Friction angle of sand, in degrees
     bolton-1986-tip    phi = 33 + 3 (D_r (10 - ln p) - 1) with p = sqrt(q_t sigma'_v)
@@ -28,8 +31,6 @@ Friction angle of sand, in degrees
         finds the angle of each point itself
 
 Young's modulus of sand
-    own-cone           E for which a cone that the program pushes into the ground of the
-        scene meets the measured resistance (caisson.design.own_cone)
     brinkgreve-2010    E = 60 MPa D_r sqrt(sigma'_m/p_a), the E_50 of a triaxial test
         Brinkgreve, Engin & Engin (2010), Numerical Methods in Geotechnical Engineering,
         p. 137; read in a published program, not in the paper. The exponent of the
@@ -55,15 +56,15 @@ Undrained strength of clay and silt
 SI units; D_r is a share of 1, angles are in degrees.
 """
 from collections.abc import Callable, Iterable
-from math import log, log10
+from math import exp, hypot, log, log10
 from typing import NamedTuple
 
 import numpy as np
 
 from caisson.design.density import bolton_angle, density_of_resistance
 from caisson.design.density import reference_modulus
+from caisson.design import own_cone
 from caisson.design.ground import Ground
-from caisson.design.own_cone import DIAMETER
 
 DENSITY, ANGLE = "relative density", "friction angle"
 MODULUS, STRENGTH = "Young's modulus", "undrained strength"
@@ -71,11 +72,11 @@ SCATTER_OF_RESISTANCE = 1.3  # a factor of q_c, for D_r
 SCATTER_OF_BOLTON = 2.0  # degrees
 CONE_FACTORS = (18 / 14, 1.0, 10 / 14)  # times N_kt, for low, best and high strength
 SCATTER_OF_MODULUS = 1.5  # a factor
-OWN_CONE, BY_DENSITY = "own-cone", "brinkgreve-2010"
+OWN_CONE, IN_CHAMBERS = "own-cone", "jamiolkowski-2003"
 OWN_CLAY, NKT = "own-cone-clay", "nkt"
-UNCALIBRATED = BY_DENSITY, NKT
+UNCALIBRATED = IN_CHAMBERS, NKT
 PER_DECADE = 0.144  # of the resistance of clay, for ten times the rate
-CONE_RATE = 0.02 / DIAMETER  # 1/s: 20 mm/s over the diameter
+CONE_RATE = 0.02 / own_cone.DIAMETER  # 1/s: 20 mm/s over the diameter
 WALL_VELOCITY = 1e-3  # m/s
 # E / s_u of clay, for the low, the best and the high estimate. Duncan & Buchignani
 # (1976) have about 300 for a plasticity of 30 to 50 % and an OCR below 3, and less for
@@ -108,7 +109,13 @@ EVERY = [
     for quantity, name, source, holds in (
         (
             DENSITY,
-            "jamiolkowski-2003",
+            OWN_CONE,
+            "cones computed with the program",
+            "the law of the scene; below 30 cone diameters",
+        ),
+        (
+            DENSITY,
+            IN_CHAMBERS,
             "Jamiolkowski, Lo Presti & Manassero (2003)",
             LAB,
         ),
@@ -121,13 +128,7 @@ EVERY = [
         ),
         (
             MODULUS,
-            OWN_CONE,
-            "cones computed with the program",
-            "a number of the law, no modulus of the soil; below 30 cone diameters",
-        ),
-        (
-            MODULUS,
-            BY_DENSITY,
+            "brinkgreve-2010",
             "Brinkgreve, Engin & Engin (2010)",
             "silica sand, half of its strength mobilized",
         ),
@@ -177,7 +178,25 @@ def limited(density: np.ndarray) -> np.ndarray:
     return np.clip(density, 0.0, 1.0)
 
 
-DENSITIES: dict[str, Density] = {"jamiolkowski-2003": jamiolkowski, "baldi-1986": baldi}
+def resistance_at(ground: Ground, end: int) -> np.ndarray:
+    """Return the resistance (Pa) [n] that a computed cone is to meet."""
+    return np.asarray(ground.resistance * exp(end * hypot(*own_cone.ERRORS)))
+
+
+def answering(ground: Ground, k0: np.ndarray, end: int) -> np.ndarray:
+    """Return D_r [n] that answers the cone; near the surface, where a cone is not deep,
+    that of Jamiolkowski et al."""
+    stress = mean_stress(ground, k0)
+    found = own_cone.densities(resistance_at(ground, end), stress)
+    is_deep = own_cone.is_deep(ground.depth)
+    return np.where(is_deep, found, jamiolkowski(ground, k0, end))
+
+
+DENSITIES: dict[str, Density] = {
+    OWN_CONE: answering,
+    IN_CHAMBERS: jamiolkowski,
+    "baldi-1986": baldi,
+}
 
 
 def stress_at_tip(ground: Ground) -> np.ndarray:
@@ -186,13 +205,13 @@ def stress_at_tip(ground: Ground) -> np.ndarray:
 
 
 def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return phi [n] of Bolton (1986) under a tip, found with K_0 = 1 - sin phi."""
+    """Return phi [n] of Bolton (1986) under a tip, with K_0 = 1 - sin phi."""
     density, stress = DENSITIES[names[DENSITY]], stress_at_tip(ground)
+    first = jamiolkowski if density is answering else density  # takes less time
     k0 = np.full(len(ground.depth), 0.5)
     for _ in range(ROUNDS):
-        angle = bolton_angle(density(ground, k0, BEST), stress)
-        k0 = at_rest(angle)
-    other = bolton_angle(density(ground, k0, end), stress)
+        k0 = at_rest(bolton_angle(first(ground, k0, BEST), stress))
+    angle, other = (bolton_angle(density(ground, k0, e), stress) for e in (BEST, end))
     angle = angle + end * np.hypot(SCATTER_OF_BOLTON, other - angle)
     return np.clip(angle, *ANGLES)
 
@@ -209,9 +228,16 @@ def densities_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
 
 
 def reference_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa."""
-    density = densities_of(ground, names, BEST)
-    return np.asarray(reference_modulus(density) * SCATTER_OF_MODULUS**end)
+    """Return E (Pa) [n] of sand at a mean effective stress of 100 kPa: where D_r
+    answers the cone it goes with it, also low and high."""
+    if names[DENSITY] != OWN_CONE:
+        density = densities_of(ground, names, BEST)
+        return np.asarray(reference_modulus(density) * SCATTER_OF_MODULUS**end)
+    density = densities_of(ground, names, end)
+    stress = mean_stress(ground, at_rest(angles_of(ground, names, BEST)))
+    ratio = own_cone.ratios(density, resistance_at(ground, end), stress)
+    is_deep = own_cone.is_deep(ground.depth)
+    return np.asarray(reference_modulus(density) * np.where(is_deep, ratio, 1.0))
 
 
 def computed_cone_factor() -> float:

@@ -157,11 +157,18 @@ def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ..
     return of_file, (f"net area ratio of the cone: {of_file:g}, from the file",)
 
 
+def grows_weaker(e: Estimates) -> bool:
+    """Return whether the strength of a layer of clay falls with depth; the density of
+    sand stays as it is below the last row that counts."""
+    return e.layer.kind == CLAY and any(x.growth < 0 for x in e.values.values())
+
+
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
     """Return what a test says. deepest: layers that begin below it (m) do not count;
-    the others are those of the whole test. Raises InputError."""
+    the others are those of the whole test, but the density of sand, which is that of
+    the rows above it. Raises InputError."""
     test = cone_file.read(file, how=cone_options.how_of(options))
     check(file, test, options)
     area_ratio, said = area_ratio_of(test, options.area_ratio)
@@ -192,10 +199,10 @@ def interpret(
         if "sleeve" in str(error):
             ways = "give its kind, as in --soil 1=sand"
         raise InputError(f"{file}: {error}; {ways}") from error
-    every = estimates_of(ground, found, names)
+    every = estimates_of(ground, found, names, inf if deepest is None else deepest)
     number = sum(deepest is None or layer.top < deepest for layer in found)
-    while any(x.growth < 0 for x in every[number - 1].values.values()):
-        number += 1  # what grows weaker does not go on for ever
+    while grows_weaker(every[number - 1]):
+        number += 1  # which does not go on for ever
     return Interpretation(
         file,
         test,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
+from dataclasses import replace
 from typing import Any
 
 from caisson import density_law
@@ -11,7 +12,7 @@ from caisson.suggest.soil import ASSUMED
 from caisson.suggest.walls import ADHESION_OF_CLAY
 from caisson.design import correlations
 from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
-from caisson.design.cone_estimates import deep_rows, density_before
+from caisson.design.cone_estimates import is_answered
 from caisson.design.correlations import DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
 from caisson.design.ground import CLAY, SAND, SILT
@@ -72,10 +73,8 @@ def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
     source, shown = names[name], SHOWN[name]
-    if name == DENSITY and density_before(found.ground, e, found.names) is not None:
-        source = found.names[MODULUS]  # which the correlation does not answer
-    if name == REFERENCE and not deep_rows(found.ground, e.layer).any():
-        source = correlations.BY_DENSITY
+    if source == correlations.OWN_CONE and not is_answered(e, found.ground, names):
+        source = correlations.IN_CHAMBERS
     words = text_of(e.values[name], shown, e.layer.top)
     text = f" # FROM CPT ({source}): {shown.head} {words}"
     start, layer = found.ground.measured_from, e.layer
@@ -105,31 +104,57 @@ def value_of(e: Estimates, name: str, end: str) -> str:
         return number(estimate.at(end))
     value, gradient = estimate.line(end, e.layer.top)  # whose difference counts
     depth = "d"
-    if name == REFERENCE:  # which does not go on below the test
-        depth = f"min(d, {e.layer.bottom:.6g})"
+    if e.layer.kind == SAND:  # which does not go on below the test
+        depth = f"min(d, {min(e.layer.bottom, e.deepest):.6g})"
     return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*{depth}"
+
+
+def void_ratios_of(e: Estimates) -> tuple[float, float]:
+    """Return the void ratios of the densest and the loosest sand: those of Karlsruhe
+    sand, moved so that the middle of the layer has the unit weight of the test."""
+    estimate, (densest, loosest) = e.values[DENSITY], sand.KARLSRUHE
+    thick = min(e.layer.bottom, e.deepest) - e.layer.top
+    share = estimate.best * (1 + estimate.growth * thick / 2)
+    void_ratio = e.porosity() / (1 - e.porosity())
+    shift = void_ratio - loosest + share * (loosest - densest)
+    return round(densest + shift, 4), round(loosest + shift, 4)
+
+
+def of_density(e: Estimates, end: str) -> dict[str, str]:
+    """Return the entries of low, best or high density of sand, by their names."""
+    share, (densest, loosest) = value_of(e, DENSITY, end), void_ratios_of(e)
+    start = f"{loosest:g} - {loosest - densest:.4g}*({share})"
+    if not e.values[DENSITY].growth:
+        start = number(loosest - (loosest - densest) * float(share))
+    return {
+        density_law.DENSITY: share,
+        density_law.MODULUS: value_of(e, REFERENCE, end),
+        density_law.REFERENCE_VOID_RATIO: start,
+    }
 
 
 def sand_of(found: Interpretation, e: Estimates) -> list[Entry]:
     """Return the entries of sand whose strength follows from its density. Relative
     density, unit weight and modulus are those of the test."""
-    share = number(e.values[DENSITY].best)
-    density = Entry(density_law.DENSITY, share, remark(found, e, DENSITY))
-    void_ratio = e.porosity() / (1 - e.porosity())
-    densest, loosest = sand.KARLSRUHE
-    shift = void_ratio - loosest + float(share) * (loosest - densest)
+    values, (densest, loosest) = of_density(e, "best"), void_ratios_of(e)
     why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
+    middle = Entry(density_law.DENSITY, number(e.values[DENSITY].best))
     known = [
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
-        Entry(density_law.DENSEST, number(densest + shift), why),
-        Entry(density_law.LOOSEST, number(loosest + shift), why),
-        Entry(
-            density_law.MODULUS,
-            value_of(e, REFERENCE, "best"),
-            remark(found, e, REFERENCE),
-        ),
+        Entry(density_law.DENSEST, f"{densest:g}", why),
+        Entry(density_law.LOOSEST, f"{loosest:g}", why),
     ]
-    return sand.entries_of(density, density_law.LAW, known)
+    entries = sand.entries_of(middle, density_law.LAW, known)
+    remarks = {
+        density_law.DENSITY: remark(found, e, DENSITY),
+        density_law.MODULUS: remark(found, e, REFERENCE),
+    }
+    return [
+        replace(x, value=values[x.name], remark=remarks.get(x.name, x.remark))
+        if x.name in values
+        else x
+        for x in entries
+    ]
 
 
 def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
@@ -198,11 +223,10 @@ def choices_of(found: Interpretation) -> dict[str, dict[str, float | str]]:
         for place, e in enumerate(found.layers, 1):
             head = f"Soil/Layer {place}"
             if e.layer.kind == SAND:
-                share = float(number(e.values[DENSITY].at(name)))
-                entries[f"{head}/{density_law.DENSITY}"] = share
+                values = of_density(e, name)
             else:
-                entries[f"{head}/Cohesion"] = plain(value_of(e, STRENGTH, name))
-            quantity = REFERENCE if e.layer.kind == SAND else MODULUS
-            entries[f"{head}/Youngs modulus"] = plain(value_of(e, quantity, name))
+                values = {"Cohesion": value_of(e, STRENGTH, name)}
+                values["Youngs modulus"] = value_of(e, MODULUS, name)
+            entries |= {f"{head}/{k}": plain(text) for k, text in values.items()}
         choices[name] = entries
     return choices

@@ -5,8 +5,9 @@ and by the model.
 The three act by themselves, so that u^2 = u_mesh^2 + u_ground^2 + u_model^2 (JCGM
 100:2008, 5.1.2), below and above the value of the best estimate each. The mesh has the
 error bar of the run; the ground the runs of low and high resistance, which are about a
-standard deviation away where they come from a cone test; the model a share of the force
-by which the program misses measurements (doc/validation.md).
+standard deviation away where they come from a cone test, and the scatter of the
+friction of steel; the model a share of the force by which the program misses
+measurements (doc/validation.md).
 """
 from collections.abc import Mapping
 from math import hypot
@@ -22,10 +23,11 @@ from caisson.results import Results
 from caisson.verdict.installation import plug_area
 from caisson.verdict.outcome import depth_of
 
-# shares of the force: a model caisson beside its tests, and a cone in the ground of
-# the scene beside its test
-OF_MODEL = {"a model caisson": 0.08, "a computed cone": 0.13}
+# shares of the force: a model caisson beside its tests, and the scatter of the ring of
+# jacked tubes over a cone, in which the computed ratio lies
+OF_MODEL = {"a model caisson": 0.08, "rings of tubes": 0.12}
 MODEL = hypot(*OF_MODEL.values())
+OF_STEEL = 0.10  # of the friction of a wall: 29.6 +- 2.5 degrees in 44 tests
 NAMES = {TOTAL: ("total force", "N"), SUCTION: ("required suction", "Pa")}
 MESH, GROUND, PROGRAM = "mesh", "ground", "model"
 POINTS = 60  # of a curve
@@ -101,9 +103,22 @@ def of_ground(
     runs = [run for name, run in members.items() if name != BEST]
     ends = [values_of(run, column, at) for run in runs]
     ends = ends if len(ends) == 2 else [np.full(len(at), np.nan)]
-    below = np.maximum(values - np.min(ends, axis=0), 0)
-    above = np.maximum(np.max(ends, axis=0) - values, 0)
-    return Part(GROUND, below, above, "low and high resistance")
+    steel = of_steel(members[BEST], column, at)
+    below = np.hypot(np.maximum(values - np.min(ends, axis=0), 0), steel)
+    above = np.hypot(np.maximum(np.max(ends, axis=0) - values, 0), steel)
+    source = "low and high resistance"
+    return Part(GROUND, below, above, source + (", steel" if steel.any() else ""))
+
+
+def of_steel(run: Results, column: str, at: np.ndarray) -> np.ndarray:
+    """Return what the scatter of the friction of sand on steel changes [n]."""
+    numbers = evaluation.at_depths(run, at)
+    friction = sum(
+        np.abs(numbers[f"{side}_friction_N"]) * (OF_STEEL if angle else 0.0)
+        for side in ("inner", "outer")
+        for angle in [run.scene.get(f"{side}_wall_friction_angle_deg")]
+    )
+    return np.asarray(friction / (plug_area(run.scene) if column == SUCTION else 1.0))
 
 
 def of_share(
