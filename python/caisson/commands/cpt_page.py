@@ -16,6 +16,7 @@ from caisson.design import cone_texts
 from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
+from caisson.report import band
 from caisson.verdict import theory, uncertainty
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
@@ -69,7 +70,7 @@ def uncertainty_in_words(found: Answers, error: int) -> str:
     if set(members) != set(ESTIMATES):
         return ""
     ends = uncertainty.at_end(members, error / 100)
-    return report.band.uncertainty_in_words(ends[-1], members[BEST].shown)
+    return band.uncertainty_in_words(ends[-1], members[BEST].shown)
 
 
 def range_of(low: float, high: float) -> str:
