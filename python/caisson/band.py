@@ -3,6 +3,7 @@
 
 Three scenes NAME_low.prm, NAME.prm and NAME_high.prm lie beside each other, and so do
 their results. The one without a suffix is the best estimate; the others may be absent.
+It may also be called NAME_best, as the run of a study.
 """
 from pathlib import Path
 
@@ -19,7 +20,8 @@ def member_of(best: Path, estimate: str) -> Path:
     if estimate == BEST:
         return best
     name = best.name.removesuffix(SCENE)
-    return best.with_name(f"{name}_{estimate}{best.name[len(name):]}")
+    stem, ending = name.removesuffix(f"_{BEST}"), best.name[len(name) :]
+    return best.with_name(f"{stem}_{estimate}{ending}")
 
 
 def caisson_of(run: Results) -> list[object]:

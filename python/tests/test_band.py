@@ -183,6 +183,18 @@ class Page(WithPage):
         _, curve = content.range_curve(run, "total_force_N", "total")
         self.assertTrue(curve["shade"])
 
+    def test_of_a_study(self) -> None:
+        """The runs of low, best and high in a study are a band, too."""
+        run = self.leave_band()
+        for estimate in (LOW, HIGH):
+            member = member_of(run.directory, estimate)
+            member.rename(self.path / f"soil_{estimate}")
+        run.directory.rename(self.path / "soil_best")
+        best = Results(self.path / "soil_best")
+        self.assertEqual(list(band_of(best)), [LOW, BEST, HIGH])
+        low = Results(self.path / "soil_low")
+        self.assertEqual(list(band_of(low)), [BEST])
+
     def test_only_of_this_caisson(self) -> None:
         """Another caisson of that name, and none, leave the page as it is."""
         run = self.leave_band()

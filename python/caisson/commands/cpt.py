@@ -130,6 +130,6 @@ def main(options: argparse.Namespace) -> int:
     status = cpt_page.run_study(options.study, directory, options.jobs)
     name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
-    page = cpt_page.write(cone, options.study, facts, options.error)
+    page = cpt_page.write(cone, options.study, facts)
     report([page])
     return status

@@ -17,7 +17,7 @@ from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
 from caisson.report import band
-from caisson.verdict import theory, uncertainty
+from caisson.verdict import theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 from caisson.design.reasons import text_of
@@ -63,14 +63,11 @@ def forces_of(found: Answers) -> tuple[list[str], list[list[str]]]:
     return heads, [list(row) for row in zip(*columns)]
 
 
-def uncertainty_in_words(found: Answers, error: int) -> str:
+def uncertainty_of(found: Answers) -> str:
     """Return how far the force, or the required suction, of the best estimate may be
-    wrong; nothing where an estimate is missing. error: asked of the mesh, in %."""
-    members = {x: run.run.results for x, run in zip(found.names, found.runs)}
-    if set(members) != set(ESTIMATES):
-        return ""
-    ends = uncertainty.at_end(members, error / 100)
-    return band.uncertainty_in_words(ends[-1], members[BEST].shown)
+    wrong, in words; nothing where an estimate is missing."""
+    runs = {x: run.run.results for x, run in zip(found.names, found.runs)}
+    return band.uncertainty_of(runs[BEST]) if set(runs) == set(ESTIMATES) else ""
 
 
 def range_of(low: float, high: float) -> str:
@@ -138,10 +135,9 @@ def job_of(facts: list[tuple[str, str]], outcomes: Outcomes) -> list[tuple[str, 
     return [*facts, ("Computed", written or "not known"), ("Program", program)]
 
 
-def write(cone: Cone, file: Path, facts: list[tuple[str, str]], error: int) -> Path:
+def write(cone: Cone, file: Path, facts: list[tuple[str, str]]) -> Path:
     """Write the page of a study with a cone test, into the directory of its cone.
-    facts: what it names first; error: of the mesh, in %. Raises ResultsError where no
-    run has an answer."""
+    facts: what it names first. Raises ResultsError where no run has an answer."""
     test, directory = cone.found, cone.directory
     study = study_of(file, directory)
     outcomes = Outcomes(study)
@@ -161,7 +157,7 @@ def write(cone: Cone, file: Path, facts: list[tuple[str, str]], error: int) -> P
             troubles=troubles_of(outcomes),
             soil=by_layer(*cone_texts.cells_of(test.layers)),
             remarks=cone_texts.remarks(test),
-            uncertainty=uncertainty_in_words(answers, error),
+            uncertainty=uncertainty_of(answers),
             forces=forces_of(answers),
             reasons=theory.reasons(answers.answers[0]),
             profile=picture_of(directory / "cpt.png"),

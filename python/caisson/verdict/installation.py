@@ -214,13 +214,18 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
         found.flow = plug_area(scene) * rate.meters_per_hour * (1 + rise) + seeps
 
 
-def way_to_an_error(run: Results) -> str:
-    """Return the command that computes the error bar of a scene, for the error of its
-    mesh where the title says that."""
+def error_asked_of(run: Results) -> int | None:
+    """Return the error (%) for which caisson suggest has made the mesh of a scene, as
+    its title says it."""
     said = re.search(r"error of about (\d+) ?%", str(run.known.get("title", "")))
+    return int(said[1]) if said else None
+
+
+def way_to_an_error(run: Results) -> str:
+    """Return the command that computes the error bar of a scene."""
     command = "caisson run" if INSTALLED else "scripts/run"
     scene = run.known.get("scene_file") or "FILE.prm"
-    return f"{command} --error {said[1] if said else 10}% {scene}"
+    return f"{command} --error {error_asked_of(run) or 10}% {scene}"
 
 
 def bar_at(found: Installation, bounds: Bounds | None, i: int, unit: str) -> str:

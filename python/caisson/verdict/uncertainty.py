@@ -4,10 +4,10 @@ and by the model.
 
 The three act by themselves, so that u^2 = u_mesh^2 + u_ground^2 + u_model^2 (JCGM
 100:2008, 5.1.2), below and above the value of the best estimate each. The mesh has the
-error bar of the run; the ground the runs of low and high resistance, which are about a
-standard deviation away where they come from a cone test, and the scatter of the
-friction of steel; the model a share of the force by which the program misses
-measurements (doc/validation.md).
+error bar of the run, or else the error that was asked of it; the ground the runs of low
+and high resistance, which are about a standard deviation away where they come from a
+cone test, and the scatter of the friction of steel; the model a share of the force by
+which the program misses measurements (doc/validation.md).
 """
 from collections.abc import Mapping
 from math import hypot
@@ -20,7 +20,7 @@ from caisson.band import BEST
 from caisson.error_bounds import BOUNDED
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
-from caisson.verdict.installation import plug_area
+from caisson.verdict.installation import error_asked_of, plug_area
 from caisson.verdict.outcome import depth_of
 
 # shares of the force: a model caisson beside its tests, and the scatter of the ring of
@@ -133,12 +133,9 @@ def of_share(
     return Part(name, share * force, share * force, source)
 
 
-def uncertainty_of(
-    members: Members, column: str, at: np.ndarray, mesh: float | None = None
-) -> Uncertainty | None:
+def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty | None:
     """Return the uncertainty of a column at depths [n] (m), with the parts that are
-    known at all of them; None where the best run has no such value. mesh: the error
-    that was asked of it, as a share, where it has no error bar."""
+    known at all of them; None where the best run has no such value."""
     best = members[BEST]
     if column not in best.history or not len(at):
         return None
@@ -150,9 +147,9 @@ def uncertainty_of(
         of_ground(members, column, at, values),
         of_share(PROGRAM, best, column, values, MODEL, " and ".join(OF_MODEL)),
     ]
-    if mesh is not None and not np.isfinite(parts[0].below).all():
+    if (asked := error_asked_of(best)) and not np.isfinite(parts[0].below).all():
         source = "asked for, not computed"
-        parts[0] = of_share(MESH, best, column, values, mesh, source)
+        parts[0] = of_share(MESH, best, column, values, asked / 100, source)
     known = [p for p in parts if np.isfinite([p.below, p.above]).all()]
     return Uncertainty(column, at, values, known)
 
@@ -165,10 +162,10 @@ def end_of(members: Members) -> float:
     )
 
 
-def at_end(members: Members, mesh: float | None = None) -> list[Uncertainty]:
+def at_end(members: Members) -> list[Uncertainty]:
     """Return the uncertainty of the total force and of the required suction there."""
     at = np.array([end_of(members)])
-    found = [uncertainty_of(members, name, at, mesh) for name in NAMES]
+    found = [uncertainty_of(members, name, at) for name in NAMES]
     return [x for x in found if x is not None]
 
 
