@@ -92,6 +92,16 @@ class Uncertainties(WithPage):
             self.assertIn("Not in it: mesh and steps and the ground.", page)
         self.assertNotIn("ground", [part.name for part in self.of_suction(run).parts])
 
+    def test_a_run_that_has_hardly_begun(self) -> None:
+        """It says nothing of the ground."""
+        run = self.leave_band(LOW, HIGH)
+        directory = member_of(run.directory, HIGH)
+        history = {name: x[:1] for name, x in Results(directory).history.items()}
+        write_columns(directory / "history.csv", history)
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        self.assertIn("Feasible to", page)
+        self.assertNotIn("with its uncertainty: the ground", page)
+
     def test_page_and_file(self) -> None:
         """They have the same numbers where the first run ends, and so has the chart."""
         run = self.leave_band(LOW, HIGH)

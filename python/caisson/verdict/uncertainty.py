@@ -80,10 +80,9 @@ class Uncertainty(NamedTuple):
 def values_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     """Return the means of a column at depths [n] (m), nan where the run has not been,
     or suction is not feasible; a suction is below 0 where the weight suffices."""
-    numbers = evaluation.at_depths(run, at)
-    depth = run.history[DEPTH]
+    numbers, depth = evaluation.at_depths(run, at), run.history[DEPTH]
     within = (at >= depth.min()) & (at <= (depth_of(run) or depth.max()) + 1e-6)
-    return np.where(within, numbers[column], np.nan)
+    return np.where(within, numbers.get(column, np.nan), np.nan)
 
 
 def of_mesh(run: Results, column: str, at: np.ndarray, values: np.ndarray) -> Part:
@@ -114,7 +113,7 @@ def of_steel(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     """Return what the scatter of the friction of sand on steel changes [n]."""
     numbers = evaluation.at_depths(run, at)
     friction = sum(
-        np.abs(numbers[f"{side}_friction_N"]) * (OF_STEEL if angle else 0.0)
+        np.abs(numbers.get(f"{side}_friction_N", 0.0)) * (OF_STEEL if angle else 0.0)
         for side in ("inner", "outer")
         for angle in [run.scene.get(f"{side}_wall_friction_angle_deg")]
     )
