@@ -16,8 +16,9 @@ from caisson.parameters.methods import Answers
 from caisson.report import content, verdict
 from caisson.results import Results
 from caisson.verdict import uncertainty
-from caisson.verdict.uncertainty import GROUND, MESH, MODEL, PROGRAM
+from caisson.verdict.uncertainty import GROUND, MESH, PROGRAM
 
+MODEL = hypot(0.08, 0.12)  # a model caisson, and rings of tubes
 FACTORS = {LOW: 0.7, BEST: 1.0, HIGH: 1.5}
 AREA = pi / 4 * (10 - 2 * 0.04) ** 2  # m2, beneath the lid of SCENE
 AT = np.array([3.0])  # m
@@ -92,6 +93,16 @@ class Uncertainties(WithPage):
             self.assertIn("Not in it: mesh and steps and the ground.", page)
         self.assertNotIn("ground", [part.name for part in self.of_suction(run).parts])
 
+    def test_in_clay(self) -> None:
+        """No caisson in clay was compared with a test, and no steel rubs."""
+        walls = {f"{x}_wall_friction_angle_deg": 0 for x in ("inner", "outer")}
+        summary = {**SUMMARY, "scene": {**SCENE, **walls}}
+        members = band_of(self.leave_band(LOW, HIGH, summary=summary))
+        found = uncertainty.uncertainty_of(members, "total_force_N", AT)
+        assert found is not None
+        self.assertAlmostEqual(found.high[0] / 1e6, 3 + hypot(1.5, 0.36), places=4)
+        self.assertEqual(found.parts[1].source, "rings of tubes")
+
     def test_a_run_that_has_hardly_begun(self) -> None:
         """It says nothing of the ground."""
         run = self.leave_band(LOW, HIGH)
@@ -111,20 +122,23 @@ class Uncertainties(WithPage):
         force, suction = json.loads(text)["uncertainty"]
         self.assertEqual(force["quantity"], "total_force_N")
         ends = [suction[f"{end}_Pa"] / 1e3 for end in ("low", "high")]
-        low, high = (f"{end:.3g} kPa" for end in ends)
-        self.assertIn(f"and {low} to {high} with its uncertainty", page)
+        low, high = (f"{end:.3g}" for end in ends)
+        self.assertIn(f"and {low} to {high} kPa with its uncertainty", page)
+        self.assertEqual(suction["missing"], ["mesh"])
         area, inner = content.range_curve(run, "required_suction_Pa", "required")
         self.assertAlmostEqual(area["to"][-1], suction["high_Pa"] / 1e3, delta=0.05)
         self.assertLess(inner["to"][-1], area["to"][-1])
 
     def test_error_that_was_asked_for(self) -> None:
-        """Of a scene of caisson suggest, whose title says it: 20 % of the force behind
-        30 kPa. A page of a cone test says the same, with all of the estimates."""
+        """Of a scene of caisson suggest, whose title says it: 20 % of the 43 kPa that
+        suction and weight are, 8.6 kPa. A page of a cone test says the same, with all
+        of the estimates."""
         titles = {**SUMMARY, "title": "a caisson, on a mesh for an error of about 20 %"}
         run = self.leave_band(LOW, HIGH, summary=titles)
         page = report.write(run.directory).read_text(encoding="utf-8")
         (said,) = re.findall("At 4.5 m the required suction[^<]*", page)
-        self.assertIn("mesh and steps ±29 % (asked for, not computed)", said)
+        part = "mesh and steps ±8.6 kPa (20 % of the force; asked for, not computed)"
+        self.assertIn(part, said)
 
         class Of:
             """A run of a study."""

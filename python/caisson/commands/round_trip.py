@@ -104,7 +104,8 @@ class Cone:
     @property
     def of_program(self) -> Run:
         """Its run."""
-        return Run(self.directory / SCENE, directory=self.directory / RESULTS)
+        directory = self.directory.resolve()
+        return Run(directory / SCENE, directory=directory / RESULTS)
 
     def known(self) -> Answer | None:
         """Return what it met; None where it did not go into this ground."""

@@ -9,9 +9,11 @@ of the mean of a layer from one test, not characteristic values of a code.
 The strength of clay is a straight line over the depth where the rows of a layer are
 nearer to one than to one value; then low, best and high are lines, too, and the
 quantiles are those of the rows as shares of the line. The line has the least sum of
-differences as shares of it, found by weighted least squares. So is the density of sand
-that answers its cone test (caisson.design.own_cone), and its modulus with it; rows
-where a cone is not deep count only where there are no others.
+differences as shares of it, found by weighted least squares.
+
+For the density of sand that answers its cone test (caisson.design.own_cone), and its
+modulus, rows count where a cone is deep and a skirt feels them; others only where there
+are none of these.
 
 SI units; relative density is a share of 1, angles are in degrees.
 """
@@ -175,8 +177,8 @@ OF_CLAY = OF_SAND | {
     K0: lambda g, _, __: np.clip(0.1 * g.net / g.stress, *RESTS_OF_CLAY),
 }
 FUNCTIONS = {SAND: OF_SAND, SILT: OF_SAND, CLAY: OF_CLAY}
-# those that grow together
-GROW = {CLAY: (STRENGTH, MODULUS), SAND: (DENSITY, REFERENCE), SILT: ()}
+OF_STRENGTH = (STRENGTH, MODULUS)  # grow together
+OF_CONE = (DENSITY, REFERENCE)  # answer the cone together
 
 
 def rows_of(
@@ -184,25 +186,11 @@ def rows_of(
 ) -> np.ndarray:
     """Return which rows [n] of a layer count for a parameter: for the density of sand
     those down to the deepest (m), where a cone is deep."""
-    if names[DENSITY] != correlations.OWN_CONE or name not in GROW[SAND]:
+    if names[DENSITY] != correlations.OWN_CONE or name not in OF_CONE:
         return layer.rows
-    near = layer.rows & (ground.depth <= deepest)
-    rows = near if near.any() else layer.rows
-    deep = rows & own_cone.is_deep(ground.depth)
-    return deep if deep.any() else rows
-
-
-def growth_of(
-    ground: Ground, layer: Layer, names: dict[str, str], deepest: float
-) -> float:
-    """Return how strength of clay, or density of sand that answers its cone, grows."""
-    if layer.kind == CLAY:
-        return growth_in(ground, layer, correlations.strengths_of(ground, names, BEST))
-    if layer.kind == SILT or names[DENSITY] != correlations.OWN_CONE:
-        return 0.0
-    rows = rows_of(ground, layer, DENSITY, names, deepest)
-    counts = replace(layer, rows=rows, bottom=min(layer.bottom, deepest))
-    return growth_in(ground, counts, correlations.densities_of(ground, names, BEST))
+    deep = layer.rows & own_cone.is_deep(ground.depth)
+    near = deep & (ground.depth <= deepest)
+    return next((rows for rows in (near, deep) if rows.any()), layer.rows)
 
 
 def estimates_of(
@@ -229,9 +217,10 @@ def estimates_of(
         for name, column in measured.items():
             column = column[layer.rows]
             values[name] = combined(column, column, column, ANY)
-        slope = growth_of(ground, layer, names, deepest)
+        strength = correlations.strengths_of(ground, names, BEST)
+        slope = growth_in(ground, layer, strength) if layer.kind == CLAY else 0.0
         for name in HAS[layer.kind]:
-            growth = slope if name in GROW[layer.kind] else 0.0
+            growth = slope if name in OF_STRENGTH else 0.0
             rows = rows_of(ground, layer, name, names, deepest)
             share = along(ground, layer, growth)[rows]
             low, best, high = [x[rows] / share for x in every[layer.kind, name]]
@@ -252,11 +241,14 @@ def answer_of(ground: Ground, e: Estimates, names: dict[str, str]) -> float:
     """Return the resistance that a computed cone meets in a layer of sand over the
     measured one, in the middle of the rows that count."""
     rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
-    density, modulus = (
-        e.values[name].best * along(ground, e.layer, e.values[name].growth)[rows]
-        for name in GROW[SAND]
-    )
-    stress = ground.stress[rows] * (1 + 2 * e.values[K0].best) / 3
+    density, modulus = (e.values[name].best for name in OF_CONE)
     ratio = modulus / correlations.reference_modulus(density)
+    stress = mean_stress_of(ground, e, names)
     found = own_cone.computed(density, stress, ratio) / ground.resistance[rows]
     return float(np.median(found))
+
+
+def mean_stress_of(ground: Ground, e: Estimates, names: dict[str, str]) -> np.ndarray:
+    """Return the mean effective stress (Pa) at the rows that count [n]."""
+    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
+    return np.asarray(ground.stress[rows] * (1 + 2 * e.values[K0].best) / 3)

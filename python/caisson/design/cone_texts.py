@@ -11,7 +11,7 @@ from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
-from caisson.design.cone_estimates import answer_of, is_answered
+from caisson.design.cone_estimates import answer_of, is_answered, mean_stress_of
 from caisson.design.cone_layers import BAND, Layer
 from caisson.design.cone_rules import ASSUMED, GIVEN
 from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
@@ -207,8 +207,7 @@ def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
             f" meets {ratio:.2f} times the measured resistance, and low and high"
             " estimate may be the same"
         )
-    stress = test.ground.median(test.ground.stress, e.layer.rows)
-    mean = stress * (1 + 2 * e.values[K0].best) / 3
+    mean = float(np.median(mean_stress_of(test.ground, e, test.names)))
     if not is_known(density, mean):
         found.append(
             f"layer {number}: no cone was computed at a relative density of"

@@ -157,12 +157,6 @@ def area_ratio_of(test: Test, given: float | None) -> tuple[float, tuple[str, ..
     return of_file, (f"net area ratio of the cone: {of_file:g}, from the file",)
 
 
-def grows_weaker(e: Estimates) -> bool:
-    """Return whether the strength of a layer of clay falls with depth; the density of
-    sand stays as it is below the last row that counts."""
-    return e.layer.kind == CLAY and any(x.growth < 0 for x in e.values.values())
-
-
 def interpret(
     file: Path, options: argparse.Namespace, deepest: float | None = None
 ) -> Interpretation:
@@ -182,6 +176,12 @@ def interpret(
     ground = ground_of(test, area_ratio, weight and 1e3 * weight)
     wall = getattr(options, "wall", None)
     first = [] if wall else [correlations.NKT]
+    given = [BY_NAME[name].quantity for name in options.correlation]
+    if len(set(given)) < len(given) or given and options.uncalibrated:
+        raise InputError(
+            "--correlation and --uncalibrated choose the same quantity twice: leave"
+            " all but one out"
+        )
     last = correlations.UNCALIBRATED if options.uncalibrated else ()
     if options.nkt:
         last = (*last, correlations.NKT)
@@ -201,8 +201,8 @@ def interpret(
         raise InputError(f"{file}: {error}; {ways}") from error
     every = estimates_of(ground, found, names, inf if deepest is None else deepest)
     number = sum(deepest is None or layer.top < deepest for layer in found)
-    while grows_weaker(every[number - 1]):
-        number += 1  # which does not go on for ever
+    while any(x.growth < 0 for x in every[number - 1].values.values()):
+        number += 1  # what grows weaker does not go on for ever
     return Interpretation(
         file,
         test,

@@ -12,6 +12,7 @@ from caisson.verdict import installation
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.report.verdict import Verdict, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
+from caisson.evaluation import SUCTION
 from caisson.results import Results
 from caisson.shown import Units
 from caisson.verdict.uncertainty import (
@@ -89,13 +90,19 @@ def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]
     return [(*c[:2], "; ".join(ends)) if c[0] == REST else c for c in cards]
 
 
-def part_in_words(part: Part, value: float) -> str:
-    """Return by what share of a value a part changes it at the last depth."""
-    below, above = (
-        f"{100 * side[-1] / value:.0f}" for side in (part.below, part.above)
-    )
-    share = f"±{above}" if below == above else f"−{below} and +{above}"
-    return f"{IN_WORDS[part.name]} {share} % ({part.source})"
+def part_in_words(part: Part, found: Uncertainty, shown: Units) -> str:
+    """Return by how much a part changes the value at the last depth: a force in %."""
+    below, above = part.below[-1], part.above[-1]
+    if found.column == SUCTION:
+        factor, unit = shown.factor("kPa") / 1e3, shown.name("kPa")
+    else:
+        factor, unit = 100 / found.values[-1], "%"
+    low, high = (text_of(float(f"{factor * x:.2g}")) for x in (below, above))
+    change = f"±{high} {unit}" if low == high else f"−{low} and +{high} {unit}"
+    source = part.source
+    if found.column == SUCTION and part.share is not None:
+        source = f"{100 * part.share:.0f} % of the force; {source}"
+    return f"{IN_WORDS[part.name]} {change} ({source})"
 
 
 def uncertainty_in_words(found: Uncertainty, shown: Units) -> str:
@@ -109,14 +116,16 @@ def uncertainty_in_words(found: Uncertainty, shown: Units) -> str:
     def text(x: float) -> str:
         return shown.force(x) if unit == "N" else shown.words(x, "kPa", ".3g")
 
-    parts = ", ".join(part_in_words(part, 1e3 * value) for part in found.parts)
-    known = [part.name for part in found.parts]
-    missing = [words for name, words in IN_WORDS.items() if name not in known]
-    without = f" Not in it: {' and '.join(missing)}." if missing else ""
+    ends = [text(low), text(high)]
+    if len({end.rpartition(" ")[2] for end in ends}) == 1:
+        ends[0] = ends[0].rpartition(" ")[0]
+    parts = ", ".join(part_in_words(part, found, shown) for part in found.parts)
+    missing = " and ".join(IN_WORDS[name] for name in found.missing)
+    without = f" Not in it: {missing}." if missing else ""
     return (
         f"At {shown.place(found.depth[-1])} the {name} is {text(value)}, and"
-        f" {text(low)} to {text(high)} with its uncertainty: {parts}; the root of the"
-        f" sum of squares.{without}"
+        f" {' to '.join(ends)} with its uncertainty: {parts}; the root of the sum of"
+        f" squares.{without}"
     )
 
 

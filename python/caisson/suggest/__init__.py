@@ -40,6 +40,7 @@ from typing import Any
 from caisson import density_law, disk
 from caisson.band import member_of
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
+from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
@@ -408,6 +409,7 @@ def scene_of(
         interfaces=len(deep) > 1,
         is_clay=all(map(walls.is_clay, deep)),
         smooth_tip=all(map(walls.is_clay, deep)) or options.wall_friction == 0,
+        tip_friction=own_cone.FRICTION,
         default_row=sizes.DEFAULT_ROW,
         directory=f"results/{file.stem}",
         frames=sizes.frames_of(start, end),

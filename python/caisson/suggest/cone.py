@@ -103,33 +103,26 @@ def value_of(e: Estimates, name: str, end: str) -> str:
     if not estimate.growth:
         return number(estimate.at(end))
     value, gradient = estimate.line(end, e.layer.top)  # whose difference counts
-    depth = "d"
-    if e.layer.kind == SAND:  # which does not go on below the test
-        depth = f"min(d, {min(e.layer.bottom, e.deepest):.6g})"
-    return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*{depth}"
+    return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*d"
 
 
 def void_ratios_of(e: Estimates) -> tuple[float, float]:
     """Return the void ratios of the densest and the loosest sand: those of Karlsruhe
-    sand, moved so that the middle of the layer has the unit weight of the test."""
-    estimate, (densest, loosest) = e.values[DENSITY], sand.KARLSRUHE
-    thick = min(e.layer.bottom, e.deepest) - e.layer.top
-    share = estimate.best * (1 + estimate.growth * thick / 2)
+    sand, moved so that the layer has the unit weight of the test."""
+    densest, loosest = sand.KARLSRUHE
     void_ratio = e.porosity() / (1 - e.porosity())
-    shift = void_ratio - loosest + share * (loosest - densest)
+    shift = void_ratio - loosest + e.values[DENSITY].best * (loosest - densest)
     return round(densest + shift, 4), round(loosest + shift, 4)
 
 
 def of_density(e: Estimates, end: str) -> dict[str, str]:
     """Return the entries of low, best or high density of sand, by their names."""
-    share, (densest, loosest) = value_of(e, DENSITY, end), void_ratios_of(e)
-    start = f"{loosest:g} - {loosest - densest:.4g}*({share})"
-    if not e.values[DENSITY].growth:
-        start = number(loosest - (loosest - densest) * float(share))
+    share, (densest, loosest) = number(e.values[DENSITY].at(end)), void_ratios_of(e)
+    start = loosest - (loosest - densest) * float(share)
     return {
         density_law.DENSITY: share,
-        density_law.MODULUS: value_of(e, REFERENCE, end),
-        density_law.REFERENCE_VOID_RATIO: start,
+        density_law.MODULUS: number(e.values[REFERENCE].at(end)),
+        density_law.REFERENCE_VOID_RATIO: f"{start:.6g}",
     }
 
 

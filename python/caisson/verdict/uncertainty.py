@@ -23,25 +23,25 @@ from caisson.results import Results
 from caisson.verdict.installation import error_asked_of, plug_area
 from caisson.verdict.outcome import depth_of
 
-# shares of the force: a model caisson beside its tests, and the scatter of the ring of
-# jacked tubes over a cone, in which the computed ratio lies
-OF_MODEL = {"a model caisson": 0.08, "rings of tubes": 0.12}
-MODEL = hypot(*OF_MODEL.values())
+# shares of the force: a model caisson in sand beside its tests, and the scatter of the
+# ring of jacked tubes over a cone, in which the computed ratio lies
+OF_CAISSON, OF_RINGS = ("a model caisson", 0.08), ("rings of tubes", 0.12)
 OF_STEEL = 0.10  # of the friction of a wall: 29.6 +- 2.5 degrees in 44 tests
 NAMES = {TOTAL: ("total force", "N"), SUCTION: ("required suction", "Pa")}
-MESH, GROUND, PROGRAM = "mesh", "ground", "model"
+PARTS = MESH, GROUND, PROGRAM = "mesh", "ground", "model"
 POINTS = 60  # of a curve
 Members = Mapping[str, Results]  # by estimate, the best one among them
 
 
 class Part(NamedTuple):
     """By how much values [n] may be too high (below) and too low (above), in their
-    unit, and whence that is known."""
+    unit, and whence that is known; share: of the force, where it is one."""
 
     name: str
     below: np.ndarray
     above: np.ndarray
     source: str
+    share: float | None = None
 
 
 class Uncertainty(NamedTuple):
@@ -74,7 +74,14 @@ class Uncertainty(NamedTuple):
             columns |= {f"{part.name}_{side}": x for side, x in sides.items()}
         unit = NAMES[self.column][1]
         numbers = {f"{name}_{unit}": float(x[-1]) for name, x in columns.items()}
-        return {"quantity": self.column, DEPTH: float(self.depth[-1]), **numbers}
+        where = {"quantity": self.column, DEPTH: float(self.depth[-1])}
+        return {**where, **numbers, "missing": self.missing}
+
+    @property
+    def missing(self) -> list[str]:
+        """The parts that are not known."""
+        known = [part.name for part in self.parts]
+        return [name for name in PARTS if name not in known]
 
 
 def values_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
@@ -109,15 +116,18 @@ def of_ground(
     return Part(GROUND, below, above, source + (", steel" if steel.any() else ""))
 
 
+def has_steel(run: Results) -> bool:
+    """Return whether a wall has friction, and not the adhesion of clay alone."""
+    sides = ("inner", "outer")
+    return any(run.scene.get(f"{side}_wall_friction_angle_deg") for side in sides)
+
+
 def of_steel(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     """Return what the scatter of the friction of sand on steel changes [n]."""
-    numbers = evaluation.at_depths(run, at)
-    friction = sum(
-        np.abs(numbers.get(f"{side}_friction_N", 0.0)) * (OF_STEEL if angle else 0.0)
-        for side in ("inner", "outer")
-        for angle in [run.scene.get(f"{side}_wall_friction_angle_deg")]
-    )
-    return np.asarray(friction / (plug_area(run.scene) if column == SUCTION else 1.0))
+    numbers, none = evaluation.at_depths(run, at), np.zeros(len(at))
+    inner, outer = (numbers.get(f"{x}_friction_N", none) for x in ("inner", "outer"))
+    change = OF_STEEL * (np.abs(inner) + np.abs(outer)) * has_steel(run)
+    return np.asarray(change / (plug_area(run.scene) if column == SUCTION else 1.0))
 
 
 def of_share(
@@ -129,7 +139,17 @@ def of_share(
     if column == SUCTION:
         weight = float(run.scene.get("submerged_weight_N") or 0)
         force = values + weight / plug_area(run.scene)
-    return Part(name, share * force, share * force, source)
+    return Part(name, share * force, share * force, source, share)
+
+
+def of_model(run: Results, column: str, values: np.ndarray) -> Part:
+    """Return by how much the program may miss the value of a run; clay has no caisson
+    to be compared with."""
+    known = [OF_CAISSON, OF_RINGS] if has_steel(run) else [OF_RINGS]
+    share, words = hypot(*(x for _, x in known)), " and ".join(
+        name for name, _ in known
+    )
+    return of_share(PROGRAM, run, column, values, share, words)
 
 
 def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty | None:
@@ -144,7 +164,7 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
     parts = [
         of_mesh(best, column, at, values),
         of_ground(members, column, at, values),
-        of_share(PROGRAM, best, column, values, MODEL, " and ".join(OF_MODEL)),
+        of_model(best, column, values),
     ]
     if (asked := error_asked_of(best)) and not np.isfinite(parts[0].below).all():
         source = "asked for, not computed"
