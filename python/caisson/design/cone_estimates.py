@@ -126,12 +126,9 @@ def line_of(depth: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     return float(value), float(gradient)
 
 
-def growth_in(
-    ground: Ground, layer: Layer, values: np.ndarray, least: float = LEAST_SHARE
-) -> float:
+def growth_in(ground: Ground, layer: Layer, values: np.ndarray) -> float:
     """Return the growth of values [n] with depth, as a share of that at the top of a
-    layer for each m; 0 where one value says as much as a line. least: share of the
-    middle that the line has at either end."""
+    layer for each m; 0 where one value says as much as a line."""
     depth, values = ground.depth[layer.rows], values[layer.rows]
     thick = layer.bottom - layer.top
     if layer.is_seam or thick < THINNEST_LINE or len(depth) < FEWEST_ROWS:
@@ -146,7 +143,7 @@ def growth_in(
     if far[0] > LEAST_GAIN * far[1] or gradient < 0 and is_last:
         return 0.0  # and no strength that falls below the test
     # of a line that would begin or end below 0, or nearly so, a part is taken
-    most = (1 - least) * middle / (thick / 2)
+    most = (1 - LEAST_SHARE) * middle / (thick / 2)
     gradient = min(max(gradient, -most), most)
     return gradient / (middle - gradient * thick / 2)
 
