@@ -156,7 +156,11 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
     """Return the uncertainty of a column at depths [n] (m), with the parts that are
     known at all of them; None where the best run has no such value."""
     best = members[BEST]
-    if column not in best.history or not len(at):
+    if (
+        column not in best.history
+        or column == SUCTION
+        and "diameter_m" not in best.scene
+    ):
         return None
     values = values_of(best, column, at)
     if not np.isfinite(values).all():
