@@ -72,7 +72,7 @@ class Uncertainties(WithPage):
     def test_mesh(self) -> None:
         """An error bar of -2 and +3 kPa is the third part."""
         run = self.leave_band(LOW, HIGH)
-        ends = {"penetration_m": [0.5, 4.5], "required_suction_below_Pa": [2e3, 2e3]}
+        ends = {"penetration_m": [0.5, 4.0], "required_suction_below_Pa": [2e3, 2e3]}
         ends["required_suction_above_Pa"] = [3e3, 3e3]
         columns = {name: np.array(column) for name, column in ends.items()}
         write_columns(run.directory / "error_bar.csv", columns)
@@ -81,6 +81,9 @@ class Uncertainties(WithPage):
         self.assertEqual([part.name for part in found.parts], [MESH, GROUND, PROGRAM])
         most = hypot(3e3, 15e3, model, STEEL / AREA)
         self.assertAlmostEqual(found.high[0], 15e3 + most, delta=1)
+        below = uncertainty.at_end(band_of(Results(run.directory)))[-1]
+        self.assertAlmostEqual(below.depth[-1], 4.5)  # half a meter below the bar
+        self.assertAlmostEqual(below.parts[0].above[0], 3e3, delta=1)
         least = hypot(2e3, 9e3, model, STEEL / AREA)
         self.assertAlmostEqual(found.low[0], max(15e3 - least, 0), delta=1)
 

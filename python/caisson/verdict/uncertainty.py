@@ -17,10 +17,9 @@ import numpy as np
 
 from caisson import evaluation
 from caisson.band import BEST
-from caisson.error_bounds import BOUNDED
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
-from caisson.verdict.installation import error_asked_of, plug_area
+from caisson.verdict.installation import bounds_of, error_asked_of, plug_area
 from caisson.verdict.outcome import depth_of
 
 # shares of the force: a model caisson in sand beside its tests, and the scatter of the
@@ -93,11 +92,11 @@ def values_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
 
 
 def of_mesh(run: Results, column: str, at: np.ndarray, values: np.ndarray) -> Part:
-    """Return what the error bar of a run says; nan without one."""
-    numbers = evaluation.at_depths(run, at)
-    (quantity,) = (q for q in BOUNDED if q.column() == column)
-    ends = [numbers.get(quantity.column(side)) for side in ("low", "high")]
-    low, high = (np.full(len(at), np.nan) if end is None else end for end in ends)
+    """Return what the error bar of a run says, also shortly below it; nan without."""
+    every = np.union1d(at, evaluation.at_depths(run).get(DEPTH, at))
+    bounds = bounds_of(evaluation.at_depths(run, every), *column.rsplit("_", 1))
+    rows, none = np.searchsorted(every, at), np.full(len(at), np.nan)
+    low, high = (none, none) if bounds is None else (x[rows] for x in bounds[:2])
     below, above = np.maximum(values - low, 0), np.maximum(high - values, 0)
     return Part(MESH, below, above, "error bar")
 
