@@ -430,6 +430,10 @@ class Estimates(WithFiles):
                 interpretation.interpret(path, options(*words))
         with self.assertRaisesRegex(InputError, "--area-ratio 2 is not"):
             interpretation.interpret(EXAMPLE, options("--area-ratio", "2"))
+        density = ["--correlation", "baldi-1986"]
+        for other in (["--uncalibrated"], ["--correlation", "own-cone"]):
+            with self.assertRaisesRegex(InputError, "the same quantity twice"):
+                interpretation.interpret(EXAMPLE, options(*density, *other))
 
 
 class Scenes(WithFiles):

@@ -227,7 +227,7 @@ def estimates_of(
     return found
 
 
-def is_answered(e: Estimates, ground: Ground, names: dict[str, str]) -> bool:
+def is_answered(ground: Ground, e: Estimates, names: dict[str, str]) -> bool:
     """Return whether the density of a layer of sand answers rows of its cone."""
     rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
     is_own = e.layer.kind == SAND and names[DENSITY] == correlations.OWN_CONE

@@ -187,7 +187,7 @@ def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
     """Return where the density of a layer of sand does not answer its cone test."""
     if e.layer.kind != SAND or test.names[DENSITY] != OWN_CONE:
         return []
-    if not is_answered(e, test.ground, test.names):
+    if not is_answered(test.ground, e, test.names):
         return [
             f"layer {number} has no row below {DEEP:g} m, where a cone is deep: its"
             f" relative density is that of {IN_CHAMBERS}"

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
-from dataclasses import replace
 from typing import Any
 
 from caisson import density_law
@@ -73,7 +72,7 @@ def remark(found: Interpretation, e: Estimates, name: str) -> str:
     """Return where the value of a parameter comes from."""
     names = found.names | {REFERENCE: found.names[MODULUS], WEIGHT: found.weight}
     source, shown = names[name], SHOWN[name]
-    if source == correlations.OWN_CONE and not is_answered(e, found.ground, names):
+    if source == correlations.OWN_CONE and not is_answered(found.ground, e, names):
         source = correlations.IN_CHAMBERS
     words = text_of(e.values[name], shown, e.layer.top)
     text = f" # FROM CPT ({source}): {shown.head} {words}"
@@ -131,23 +130,22 @@ def sand_of(found: Interpretation, e: Estimates) -> list[Entry]:
     density, unit weight and modulus are those of the test."""
     values, (densest, loosest) = of_density(e, "best"), void_ratios_of(e)
     why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
-    middle = Entry(density_law.DENSITY, number(e.values[DENSITY].best))
+    start = density_law.REFERENCE_VOID_RATIO
     known = [
         Entry("K0", number(e.values[K0].best), " # FROM CPT"),
         Entry(density_law.DENSEST, f"{densest:g}", why),
         Entry(density_law.LOOSEST, f"{loosest:g}", why),
+        Entry(
+            density_law.MODULUS,
+            values[density_law.MODULUS],
+            remark(found, e, REFERENCE),
+        ),
+        Entry(start, values[start], sand.OF_START),
     ]
-    entries = sand.entries_of(middle, density_law.LAW, known)
-    remarks = {
-        density_law.DENSITY: remark(found, e, DENSITY),
-        density_law.MODULUS: remark(found, e, REFERENCE),
-    }
-    return [
-        replace(x, value=values[x.name], remark=remarks.get(x.name, x.remark))
-        if x.name in values
-        else x
-        for x in entries
-    ]
+    share = Entry(
+        density_law.DENSITY, values[density_law.DENSITY], remark(found, e, DENSITY)
+    )
+    return sand.entries_of(share, density_law.LAW, known)
 
 
 def at_rest_of(found: Interpretation, e: Estimates) -> Entry:

@@ -36,6 +36,7 @@ LAW_REMARKS = {
 }
 SAND = "Sand"  # in place of an entry: one of WORDS
 KARLSRUHE = (0.53, 0.84)  # void ratios of the relative densities 1 and 0
+OF_START = " # that of the start: sand that dilates becomes softer (Hardin)"
 OF_KARLSRUHE = f"{ASSUMPTION}: Karlsruhe sand (Herle & Gudehus 1999)"
 OF_DENSITY = "60 MPa D_r (Brinkgreve, Engin & Engin 2010)"
 # of tan = 0.55, the largest of UWA-05 for steel piles in sand; quoted, unconfirmed
@@ -180,7 +181,7 @@ def numbers_of(
             Entry(
                 names.REFERENCE_VOID_RATIO,
                 f"{void_ratio:.4g}",
-                " # that of the start: sand that dilates becomes softer (Hardin)",
+                OF_START,
             ),
             Entry(names.POISSON, "0.3", ASSUMPTION),
         ]

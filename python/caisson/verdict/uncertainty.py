@@ -145,9 +145,7 @@ def of_model(run: Results, column: str, values: np.ndarray) -> Part:
     """Return by how much the program may miss the value of a run; clay has no caisson
     to be compared with."""
     known = [OF_CAISSON, OF_RINGS] if has_steel(run) else [OF_RINGS]
-    share, words = hypot(*(x for _, x in known)), " and ".join(
-        name for name, _ in known
-    )
+    share, words = hypot(*(x for _, x in known)), " and ".join(x for x, _ in known)
     return of_share(PROGRAM, run, column, values, share, words)
 
 
@@ -155,11 +153,8 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
     """Return the uncertainty of a column at depths [n] (m), with the parts that are
     known at all of them; None where the best run has no such value."""
     best = members[BEST]
-    if (
-        column not in best.history
-        or column == SUCTION
-        and "diameter_m" not in best.scene
-    ):
+    has_area = column != SUCTION or "diameter_m" in best.scene
+    if column not in best.history or not has_area:
         return None
     values = values_of(best, column, at)
     if not np.isfinite(values).all():
