@@ -119,7 +119,7 @@ def draw_error_bars(axes: Axes, bounds: Table) -> None:
         if (limit := bounds.get(f"{name}_force_limit_N")) is not None:
             depth = bounds["penetration_m"]
             mean = running_mean(depth, limit, window_of(depth))
-            label = "best estimate: limit of the meshes" if name == "tip" else None
+            label = "best estimate from the meshes" if name == "tip" else None
             axes.plot(
                 mean / 1e3, depth, color=COLORS[name], ls=":", lw=1.2, label=label
             )
