@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """States of made-up points, exported and read back by a plain solver."""
-import ast
 import contextlib
 import errno
 import importlib
@@ -8,11 +7,8 @@ import io
 import json
 import math
 import os
-import runpy
 import shutil
 import subprocess
-import sys
-import types
 import unittest
 import unittest.mock
 import xml.etree.ElementTree as ElementTree
@@ -40,7 +36,6 @@ from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
 from caisson.export.text import about, judged
 
 CCX = shutil.which("ccx")
-ZONES = {"inside", "outside_near", "outside", "below_tip"}
 TINY = Path(__file__).with_name("tiny_run")
 
 
@@ -282,92 +277,6 @@ class Balance(Temporary):
         return float(np.linalg.norm(change) / np.linalg.norm(stress))
 
 
-class Sector(Temporary):
-    """The script of OpenSees, run with a module that takes down what it asks for."""
-
-    def run_script(self, state: Exported) -> dict[str, list[tuple[Any, ...]]]:
-        """Return the calls of each function."""
-        decks.write(self.path / "a.py", state, "opensees")
-        calls: dict[str, list[tuple[Any, ...]]] = {}
-
-        class Module(types.ModuleType):
-            def __getattr__(self, name: str) -> Any:
-                return lambda *words: calls.setdefault(name, []).append(words)
-
-        module = Module("openseespy.opensees")
-        package = types.ModuleType("openseespy")
-        package.opensees = module  # type: ignore[attr-defined]
-        known = {"openseespy": package, "openseespy.opensees": module}
-        with unittest.mock.patch.dict(sys.modules, known):
-            runpy.run_path(str(self.path / "a.py"))
-        return calls
-
-    def test_bricks_are_in_balance(self) -> None:
-        """Strains give the stress; forces of bricks on the radial and vertical motion
-        of the two faces, with weight and loads, are those of the ring."""
-        found = on_mesh(made_up(noise=0.02))
-        calls = self.run_script(found)
-        nodes = {tag: np.array(x) for tag, *x in calls["node"]}
-        elastic = {w[1]: w[2:] for w in calls["nDMaterial"] if w[0] != "InitStrain"}
-        stress = {}
-        for _, tag, other, *strain in (w for w in calls["nDMaterial"] if len(w) > 5):
-            modulus, ratio = elastic[other]
-            shear = modulus / (2 * (1 + ratio))
-            lame = 2 * shear * ratio / (1 - 2 * ratio)
-            full = lame * sum(strain[:3]) + 2 * shear * np.array(strain[:3])
-            stress[tag] = np.array([*full, *(shear * np.array(strain[3:]))])
-        force = {tag: np.zeros(3) for tag in nodes}
-        for _, _, *corners, material, bx, by, bz in calls["element"]:
-            add_brick(force, nodes, corners, stress[material], np.array([bx, by, bz]))
-        for tag, *load in calls["load"]:
-            force[tag] += load
-        held = {tag: fixed for tag, *fixed in calls["fix"]}
-        n, slope, rest = len(nodes) // 2, math.tan(decks.HALF_ANGLE), 0.0
-        for tag in range(1, n + 1):
-            front, back = force[tag], force[tag + n]
-            radial = front[0] + back[0] + slope * (back[1] - front[1])
-            fixed = held.get(tag, (0, 0, 0))
-            parts = (radial * (not fixed[0]), (front[2] + back[2]) * (not fixed[2]))
-            rest += math.hypot(*parts)
-        weight = found.weight * decks.HALF_ANGLE / math.pi
-        decks.write(self.path / "a.inp", found, "abaqus")
-        deck = read_deck(self.path / "a.inp")
-        ring = forces_of(deck).residual(deck)
-        self.assertAlmostEqual(rest / weight / ring, 1, delta=0.02)
-        self.assertEqual(
-            len(calls["equationConstraint"]),
-            2 * (n - sum(fixed[0] for fixed in held.values()) // 2),
-        )
-
-
-def add_brick(
-    force: dict[int, np.ndarray],
-    nodes: dict[int, np.ndarray],
-    corners: list[int],
-    stress: np.ndarray,
-    body: np.ndarray,
-) -> None:
-    """Add body forces less those of the stress (11, 22, 33, 12, 23, 13) of a brick."""
-    xx, yy, zz, xy, yz, xz = stress
-    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    place = np.array([nodes[tag] for tag in corners])
-    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    signs = np.array([[*ab, c] for c in (-1, 1) for ab in square])
-    for point in signs / math.sqrt(3):
-        one = 1 + signs * point
-        shape = one.prod(axis=1) / 8
-        local = np.array(
-            [signs[:, i] * one[:, (i + 1) % 3] * one[:, (i + 2) % 3] for i in range(3)]
-        )
-        jacobian = local / 8 @ place
-        volume = np.linalg.det(jacobian)
-        assert volume > 0
-        gradient = np.linalg.solve(jacobian, local / 8)
-        values = volume * (np.outer(shape, body) - gradient.T @ tensor)
-        for tag, value in zip(corners, values):
-            force[tag] += value
-
-
 class Tables(Temporary):
     """Tables and pictures."""
 
@@ -403,26 +312,6 @@ class Tables(Temporary):
         with contextlib.suppress(ModuleNotFoundError):  # python3-meshio is not needed
             mesh = importlib.import_module("meshio").read(self.path / "a.vtu")
             self.assertEqual(len(mesh.points), len(found.mesh.nodes))
-
-    def test_zones_at_rest(self) -> None:
-        """K0 is that of the soil, and nothing is overconsolidated."""
-        tables.write_plaxis(self.path / "a.csv", on_mesh(made_up()))
-        lines = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
-        rows = [line.split(",") for line in lines if not line.startswith("#")]
-        table = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
-        self.assertEqual(set(table["zone"]), ZONES)
-        for name, value in (("K0_radial", K0), ("K0_hoop", K0), ("OCR", 1)):
-            np.testing.assert_allclose(
-                [float(x) for x in table[name]], value, rtol=1e-5
-            )
-
-    def test_zones_that_are_unloaded(self) -> None:
-        state = made_up(wall=None)
-        state.stress[:, 1] /= 2
-        tables.write_plaxis(self.path / "a.csv", on_mesh(state))
-        text = (self.path / "a.csv").read_text(encoding="utf-8").splitlines()
-        ratio = [line.split(",")[9] for line in text if line.startswith("soil,")]
-        np.testing.assert_allclose([float(x) for x in ratio], 2, rtol=1e-5)
 
 
 class Command(Temporary):
@@ -522,7 +411,7 @@ class Command(Temporary):
         for layer in scene["layers"]:
             del layer["youngs_modulus_Pa"]
         run = self.run_with(scene)
-        for form in ("csv", "plaxis", "calculix"):
+        for form in ("csv", "calculix"):
             path = self.path / form
             status, text = self.call(run, "--to", form, "--output", path)
             self.assertEqual(status, 0, text)
@@ -536,7 +425,7 @@ class Command(Temporary):
         summary = json.loads((run / "run.json").read_text(encoding="utf-8"))
         summary["title"] = 'x\n*STEP\r"""\nexit()\x1b[31m\u2028exit() --> <a>'
         (run / "run.json").write_text(json.dumps(summary), encoding="utf-8")
-        marks = {"csv": "#", "plaxis": "#", "opensees": "#", "abaqus": "**", "vtu": ""}
+        marks = {"csv": "#", "abaqus": "**", "vtu": ""}
         for form, mark in marks.items():
             path = self.path / form
             status, said = self.call(run, "--to", form, "--output", path)
@@ -549,9 +438,6 @@ class Command(Temporary):
             if form == "vtu":
                 comment = ElementTree.fromstring(text)
                 self.assertEqual(comment.tag, "VTKFile")
-            elif form == "opensees":
-                calls = {ast.unparse(n) for n in ast.walk(ast.parse(text))}
-                self.assertNotIn("exit()", calls)
 
     def test_a_disk_that_is_full(self) -> None:
         """Nothing is said to be written, the older file stays, and no half of one."""

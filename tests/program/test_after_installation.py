@@ -82,8 +82,6 @@ class Page(ProgramTest):
         self.assertGreater(tension["suction_Pa"].max(), 1e3)
         for name in ("springs/springs.csv", "springs/springs.png"):
             self.assertTrue((results / name).is_file(), name)
-        for name in ("springs_opensees.py",):
-            self.assertTrue((results / "springs" / name).is_file(), name)
         for name in ("report.html", "walls.png", "stress.png", "state_abaqus.inp"):
             self.assertTrue((results / "jack_2m" / name).is_file(), name)
 

@@ -26,7 +26,7 @@ from caisson.export.gmsh import read_gmsh
 from caisson.export.interpolate import interpolate
 from caisson.export.mesh import Mesh, Window, check_spacing, default_window, regular
 from caisson.export.places import read_places
-from caisson.export.springs import Springs, springs_of
+from caisson.export.springs import springs_of
 from caisson.export.state import State, read_state
 from caisson.export.text import POINTS, about, about_state
 
@@ -35,20 +35,10 @@ Writer = Callable[[Path, Exported], None]
 FORMS: dict[str, tuple[str, Writer]] = {
     "csv": (".csv", tables.write_cells),
     "vtu": (".vtu", tables.write_vtu),
-    "plaxis": ("_plaxis.csv", tables.write_plaxis),
+    "abaqus": ("_abaqus.inp", partial(decks.write, program="abaqus")),
+    "calculix": ("_calculix.inp", partial(decks.write, program="calculix")),
 }
-FORMS |= {
-    program: (
-        f"_{program}.{template.split('.')[1]}",
-        partial(decks.write, program=program),
-    )
-    for program, (template, _) in decks.PROGRAMS.items()
-}
-
-SPRINGS: dict[str, tuple[str, Callable[[Path, Springs, Springs | None], None]]] = {
-    "tz": ("springs.csv", spring_files.write_csv),
-    "tz-opensees": ("springs_opensees.py", spring_files.write_opensees),
-}
+SPRINGS = "tz"
 WHERE = ("penetration", "time", "mesh", "points", "spacing", "radius", "depth")
 
 
@@ -56,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson export`."""
     add = parser.add_argument
     add("directory", type=Path, metavar="DIR", help="output directory of a run")
-    add("--to", choices=[*FORMS, *SPRINGS], required=True, help="form of the file")
+    add("--to", choices=[*FORMS, SPRINGS], required=True, help="form of the file")
     add("--output", type=Path, metavar="FILE", help="default: state... in DIR")
     add("--overwrite", action="store_true", help="replace the file if it is there")
     frame = parser.add_mutually_exclusive_group()
@@ -140,22 +130,17 @@ def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
                 f" and {names[other.direction]} in {short(options.beside)}: --beside"
                 " takes a run with the same direction"
             )
-    name, write = SPRINGS[options.to]
-    path = options.output or options.directory / name
-    write(path, found, other)
-    if options.to == "tz":
-        spring_picture.draw(path.with_suffix(".png"), found, other)
-    lines = spring_files.about_both(found, other)
-    if options.to == "tz-opensees":
-        lines.append(spring_files.about_hyperbolas(found))
-    return path, lines
+    path = options.output or options.directory / "springs.csv"
+    spring_files.write_csv(path, found, other)
+    spring_picture.draw(path.with_suffix(".png"), found, other)
+    return path, spring_files.about_both(found, other)
 
 
 def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
     """Write the state at a frame; return the file, and what to say of it."""
     for name in ("weight", "beside"):
         if getattr(options, name) is not None:
-            raise ResultsError(f"--{name} is for {' and '.join(SPRINGS)}")
+            raise ResultsError(f"--{name} is for --to {SPRINGS}")
     run = load(options.directory)
     state = read_state(run, frame_of(run, options))
     end, write = FORMS[options.to]
@@ -170,7 +155,7 @@ def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
 
 def main(options: argparse.Namespace) -> int:
     """Write the file, and print what it is."""
-    export = export_springs if options.to in SPRINGS else export_state
+    export = export_springs if options.to == SPRINGS else export_state
     with disk.all_or_none(options.overwrite):
         path, lines = export(options)
     print("\n".join([*lines, f"written to {short(path)}"]))

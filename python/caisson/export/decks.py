@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exported states as input of finite element programs: Abaqus, CalculiX, OpenSees.
-
-The lines of a file are in its template; here are its data, and what differs between
-programs.
-"""
+"""Exported states as input of Abaqus and CalculiX. The template has the lines of a
+file, and what differs between the programs; here are its data."""
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -17,36 +13,8 @@ from caisson.export.text import TOTAL, about
 from caisson.template import template
 
 POISSON = 0.3  # of the elastic soil in the files, which stands for the user's
-HALF_ANGLE = np.radians(1)  # of the sector of bricks for OpenSees
-NEAR_AXIS = 1e-3  # of the shortest radius: nodes of bricks do not lie on the axis
-# program: its template, and what it has in the place of others
-PROGRAMS: dict[str, tuple[str, dict[str, Any]]] = {
-    "abaqus": (
-        "deck.inp.jinja",
-        {
-            "stress": "S11 = rr, S22 = zz, S33 = tt, S12 = rz",
-            "step": ("*STEP, NAME=GEOSTATIC, NLGEOM=NO", "*GEOSTATIC"),
-            "output": ("*OUTPUT, FIELD, VARIABLE=PRESELECT",),
-        },
-    ),
-    "calculix": (
-        "deck.inp.jinja",
-        {
-            "stress": "point, rr, zz, tt, rz, 0, 0",
-            "step": ("*STEP", "*STATIC"),
-            "output": ("*NODE PRINT, NSET=ALL_NODES", "U, RF")
-            + ("*EL PRINT, ELSET=SOIL", "S"),
-            # of the brick or wedge into which it expands an element
-            "points": {"CAX4": 8, "CAX3": 2},
-        },
-    ),
-    "opensees": ("opensees.py.jinja", {}),
-}
-
-
-def texts(values: np.ndarray) -> list[str]:
-    """Return stresses as text."""
-    return [f"{value:.9g}" for value in values]
+# elements, and the points of the wedge or brick into which CalculiX expands them
+TRIANGLE, QUADRILATERAL = ("CAX3", 3, 2), ("CAX4", 4, 8)
 
 
 def sets_of(state: Exported) -> Iterator[tuple[str, str, np.ndarray]]:
@@ -60,26 +28,23 @@ def sets_of(state: Exported) -> Iterator[tuple[str, str, np.ndarray]]:
         yield "NSET", name, nodes
 
 
-def stresses_of(state: Exported, points: dict[str, int]) -> Iterator[tuple[str, list]]:
-    """Yield the place and the stress of each element, or of all its points."""
-    for cell, stress in enumerate(state.total):
-        if not points:
-            yield f"{cell + 1}", texts(stress)
-        kind = "CAX3" if state.mesh.is_triangle[cell] else "CAX4"
-        for point in range(points.get(kind, 0)):
-            yield f"{cell + 1}, {point + 1}", [*texts(stress), "0", "0"]
-
-
-def kinds_of(state: Exported) -> dict[str, list[tuple[int, list[int]]]]:
-    """Return number and corners of the elements of each kind."""
-    mesh, found = state.mesh, {}
-    for kind, size, of_kind in (
-        ("CAX4", 4, ~mesh.is_triangle),
-        ("CAX3", 3, mesh.is_triangle),
+def elements_of(state: Exported) -> Iterator[tuple[str, list[tuple[int, list[int]]]]]:
+    """Yield each kind of elements that the mesh has, with their numbers and corners."""
+    mesh = state.mesh
+    for (kind, size, _), of_kind in (
+        (QUADRILATERAL, ~mesh.is_triangle),
+        (TRIANGLE, mesh.is_triangle),
     ):
-        pairs = zip(np.flatnonzero(of_kind) + 1, mesh.cells[of_kind, :size] + 1)
-        found[kind] = [(number, cell.tolist()) for number, cell in pairs]
-    return {kind: cells for kind, cells in found.items() if cells}
+        corners = (mesh.cells[of_kind, :size] + 1).tolist()
+        if corners:
+            yield kind, list(zip(np.flatnonzero(of_kind) + 1, corners))
+
+
+def stresses_of(state: Exported) -> Iterator[tuple[str, int]]:
+    """Yield the stress of each element, and its number of points in CalculiX."""
+    for stress, is_triangle in zip(state.total, state.mesh.is_triangle):
+        *_, points = TRIANGLE if is_triangle else QUADRILATERAL
+        yield ", ".join(f"{value:.9g}" for value in stress), points
 
 
 def held_sets(state: Exported) -> list[tuple[str, int]]:
@@ -93,30 +58,20 @@ def held_sets(state: Exported) -> list[tuple[str, int]]:
 
 
 def write(path: Path, state: Exported, program: str) -> None:
-    """Write the input of a program."""
-    name, words = PROGRAMS[program]
+    """Write the input of a program, "abaqus" or "calculix"."""
     layers = state.state.layers
     loads = state.applied * ~state.held
-    r = state.mesh.nodes[:, 0]
-    text = template(Path(__file__).with_name(name)).render(
+    text = template(Path(__file__).with_name("deck.inp.jinja")).render(
+        program=program,
         about=map(disk.one_line, [*about(state), TOTAL]),
-        words=words,
-        mesh=state.mesh,
-        kinds=kinds_of(state),
+        nodes=state.mesh.nodes,
+        elements=elements_of(state),
         sets=[(kind, name, n + 1) for kind, name, n in sets_of(state)],
         layers=[layers[i] for i in np.unique(state.values.layer)],
-        stresses=stresses_of(state, words.get("points", {})),
-        elements=zip(
-            state.mesh.cells + 1,
-            [layers[i] for i in state.values.layer],
-            map(texts, state.total),
-        ),
+        stresses=stresses_of(state),
         held_sets=held_sets(state),
-        held=[(n + 1, *map(int, h)) for n, h in enumerate(state.held) if h.any()],
         loads=[(n + 1, c + 1, loads[n, c]) for n, c in zip(*np.nonzero(loads))],
         poisson=POISSON,
         gravity=GRAVITY,
-        half_angle=HALF_ANGLE,
-        least=NEAR_AXIS * r[r > 1e-9].min(),
     )
     disk.write(path, text)

@@ -20,8 +20,8 @@ FEWEST = 8
 POOR = 0.1  # spread of the neighbors in one direction over that in the other
 FARTHEST = 1.5  # of their mean from the place, over their spread
 AT_ONCE = 4000  # places
-# fields that grow with depth as the stress does: of the others it is the mean
-LINEAR = {"yield_stress_Pa", "vertical_yield_stress_Pa"}
+# the field that grows with depth as the stress does: of the others it is the mean
+LINEAR = "yield_stress_Pa"
 
 
 @dataclass
@@ -160,7 +160,7 @@ def interpolate_some(state: State, near: Neighbors) -> Values:
     for name, values in state.fields.items():
         of_points = values[near.index]
         fields[name] = mean_of(of_points, weight)
-        if name in LINEAR:
+        if name == LINEAR:
             plane = np.einsum("nk,nk->n", shares, np.nan_to_num(of_points))
             known = (np.isfinite(of_points) | (near.weight == 0)).all(axis=1)
             fields[name] = np.where(known, np.maximum(plane, 0.0), fields[name])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What exports need of the laws of a run: Young's modulus and the vertical yield
-stress. A layer is an entry of the list "layers" in run.json."""
+"""What exports need of the laws of a run: Young's modulus. A layer is an entry of the
+list "layers" in run.json."""
 from typing import Any
 
 import numpy as np
@@ -42,17 +42,3 @@ def youngs_modulus(
         bulk = (1 + void_ratio) * np.maximum(pressure, least)
         return 3 * (1 - 2 * nu) * bulk / entries["Slope of swelling"]
     return np.full(len(pressure), constant)
-
-
-def vertical_over_yield_stress(layer: dict[str, Any]) -> float:
-    """Return the vertical stress of normally consolidated soil over its yield stress
-    p_c, of modified Cam clay with K0 = 1 - sin(phi_c) (Jaky 1948); nan of other laws.
-
-    The yield surface through that stress has p_c = p + q^2 / (M^2 p).
-    """
-    if layer.get("law") != CAM_CLAY:
-        return np.nan
-    sine = np.sin(np.radians(entries_of(layer)["Critical friction angle"]))
-    slope = 6 * sine / (3 - sine)
-    p, q = 1 - 2 * sine / 3, sine  # over the vertical stress
-    return float(1 / (p + q**2 / (slope**2 * p)))

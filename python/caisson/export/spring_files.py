@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Springs of a caisson as files: a table in the form of t-z curves, and OpenSees."""
+"""Springs of a caisson as a table of t-z curves, and what is said of them."""
 from pathlib import Path
 
 import numpy as np
 
-from caisson import disk, table
-from caisson.template import template
+from caisson import table
 from caisson.export.springs import SMALL, STILL_GROWS, WALLS, Springs
 
 ROWS = 25  # of a curve in the table
@@ -107,14 +106,6 @@ def about_both(found: Springs, other: Springs | None) -> list[str]:
     return lines
 
 
-def about_hyperbolas(found: Springs) -> str:
-    """Return how well the springs of OpenSees follow the run."""
-    return (
-        f"Hyperbolas with these numbers differ together from the run by at most"
-        f" {100 * found.misfit:.2g} % of its largest resistance."
-    )
-
-
 def rows_of(found: Springs) -> np.ndarray:
     """Return the records for a table: close to each other where the curves begin."""
     last = len(found.displacement) - 1
@@ -157,25 +148,8 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
     table.write_csv(path, names, lines, [*about_both(found, other), *SIGNS])
 
 
-def write_opensees(path: Path, found: Springs, other: Springs | None) -> None:
-    """Write the springs as materials and elements of OpenSees, in a module."""
-    text = template(Path(__file__).with_name("springs_opensees.py.jinja")).render(
-        about=[*about_both(found, other), *SIGNS, OPENSEES, about_hyperbolas(found)],
-        springs=[spring for spring in found.springs if spring.ultimate > 0],
-        displacement=found.displacement,
-        bearing=("tip", "lid") if found.direction > 0 else (),
-    )
-    disk.write(path, text)
-
-
 SIGNS = (
     "t of a wall and q of the tip: the resistance is the change of the stress since the"
     " displacement began, against the motion; stress_kPa is the stress itself, upward"
     " on the caisson. Both are effective. The ultimate is the largest of the curve.",
-)
-OPENSEES = (
-    "add(ops, node, first) adds a spring in direction 2 between node(depth), a node of"
-    " your model at that depth, and a fixed node that it makes. It takes the numbers"
-    " from first on for nodes, materials and elements. What a pulled tip or lid loses"
-    " is a spring, too."
 )

@@ -31,7 +31,6 @@ from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus
 
 SAME = 1e-9  # m, of penetrations
 SAME_ROW = 1e-6  # m, of heights on the wall
-TINY = 1e-12  # m
 WALLS = ("inner", "outer")
 WATER = ("suction_force_N", "tip_water_force_N")
 SEGMENTS = 8  # of each wall
@@ -59,15 +58,6 @@ class Spring:
     def ultimate(self) -> float:
         """The largest resistance (Pa); 0 where there is none."""
         return max(0.0, float(self.resistance.max()))
-
-    def half(self, displacement: np.ndarray) -> float:
-        """Return where half of the largest resistance is passed first (m)."""
-        above = int(np.argmax(self.resistance >= self.ultimate / 2))
-        low = max(0, above - 1)
-        pair = slice(low, above + 1)
-        return float(
-            np.interp(self.ultimate / 2, self.resistance[pair], displacement[pair])
-        )
 
 
 @dataclass
@@ -107,18 +97,6 @@ class Springs:
         """How far a wave has gone (m) at the first of SMALL."""
         first = SMALL[0] * self.diameter
         return float(np.interp(first, self.displacement, self.reach))
-
-    @property
-    def misfit(self) -> float:
-        """The largest difference between the resistance and springs that are hyperbolas
-        with the ultimate and the displacement at half of it, over the largest
-        resistance."""
-        z, together = self.displacement, np.zeros(len(self.displacement))
-        for spring in self.springs:
-            if spring.ultimate > 0:
-                share = z / (spring.half(z) + z + TINY)
-                together += spring.area * spring.ultimate * share
-        return float(abs(together - self.force).max() / self.force.max())
 
     @property
     def growth(self) -> float:

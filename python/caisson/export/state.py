@@ -8,7 +8,7 @@ import numpy as np
 from caisson.frame import Arrays, Frame
 from caisson.verdict.loaded import LoadedRun
 from caisson.results import ResultsError, Table
-from caisson.export.laws import vertical_over_yield_stress, youngs_modulus
+from caisson.export.laws import youngs_modulus
 
 STRESS = ("rr", "zz", "tt", "rz")  # the order of the components everywhere
 # fields that other ones contain, or that are no state of the soil
@@ -243,11 +243,6 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         and name not in LEFT_OUT
         and not name.startswith(("stress_", "pore_pressure"))
     }
-    if "yield_stress_Pa" in fields:
-        shares = map(vertical_over_yield_stress, run.results.scene["layers"])
-        share = np.array(list(shares))[data["material"].astype(int)]
-        if np.isfinite(share).any():
-            fields["vertical_yield_stress_Pa"] = share * fields["yield_stress_Pa"]
     history = run.results.history
     suction = history.get("suction_Pa", np.zeros(len(history["time_s"])))
     return State(
