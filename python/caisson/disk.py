@@ -307,11 +307,6 @@ def write(path: Path, content: str | bytes) -> Path:
     return _write_own(path, data, _is_kept(path, data))
 
 
-def update(path: Path, content: str | bytes) -> Path:
-    """Write a file as write() does, with a content that has all of the one before."""
-    return _write_own(path, _bytes_of(content), False)
-
-
 def save(figure: Any, path: Path, dpi: int = 150) -> Path:
     """Write a figure of matplotlib, in the format that its name ends with; return the
     path."""

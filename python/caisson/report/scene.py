@@ -10,7 +10,6 @@ from caisson.design.reasons import text_of
 from caisson.evaluation import is_sealed
 from caisson.verdict.installation import plug_area
 
-ASSUMED = "ASSUMED"
 WALLS = {"wall_friction_angle_deg", "wall_adhesion_Pa"}  # of a layer
 BODY, SOIL = "Rigid body", "Soil/Layer"
 SCALES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
