@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The points of a table at which values are asked for: numbers within the soil."""
-import csv
-import io
 from pathlib import Path
 
 import numpy as np
 
+from caisson.design import cone_grid
 from caisson.results import ResultsError
 from caisson import disk
 from caisson.export.mesh import default_window, steps, surface_of
@@ -19,20 +18,19 @@ def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
     """Return the points [n, 2] (m) of a table, and the line of each. Raises
     ResultsError where a row has no two numbers."""
     points, numbers = [], []
-    text = io.StringIO(disk.read_text(path, ResultsError), newline="")
-    lines = list(enumerate(csv.reader(text), 1))
-    rows = [(n, row) for n, row in lines if row and not row[0].startswith("#")]
+    lines = disk.read_text(path, ResultsError).splitlines()
+    rows, _ = cone_grid.grid_of_text(lines)
     names = [name.strip() for name in rows[0][1]] if rows else []
     if not set(COLUMNS) <= set(names):
         raise ResultsError(f"{path} has no columns r_m and z_m")
-    for n, row in rows[1:]:
+    for n, cells in rows[1:]:
         try:
-            point = [float(row[names.index(name)]) for name in COLUMNS]
+            point = [float(cells[names.index(name)]) for name in COLUMNS]
         except (ValueError, IndexError):
             point = [np.nan]
         if not np.isfinite(point).all():
             raise ResultsError(
-                f"{path}, line {n}: {','.join(row)!r} has no numbers r_m and z_m"
+                f"{path}, line {n}: {','.join(cells)!r} has no numbers r_m and z_m"
             )
         points.append(point)
         numbers.append(n)
@@ -63,30 +61,23 @@ def read_places(path: Path, state: State) -> np.ndarray:
     points, numbers = read_table(path)
     r, z = points.T
     surface = surface_at(state, r)
-    outside = [(r < 0, "beyond the axis: r is at least 0")]
-    outside.append(
-        (
-            r > state.outer_radius + TOLERANCE,
-            f"beyond the domain of the run, which ends at r = {state.outer_radius:g} m",
-        )
-    )
-    outside.append(
-        (
-            z < state.bottom - TOLERANCE,
-            f"below the domain of the run, which ends at z = {state.bottom:g} m",
-        )
-    )
-    if state.wall is not None:
-        outside.append((state.wall.contains(points), "in the wall"))
-    above = z > surface + default_window(state).spacing / 2
-    outside.append((above, "above the ground"))
-    for are, words in outside:
-        if are.any():
+    domain = "the domain of the run, which ends at"
+    outside = {
+        "beyond the axis: r is at least 0": r < 0,
+        f"beyond {domain} r = {state.outer_radius:g} m": (
+            r > state.outer_radius + TOLERANCE
+        ),
+        f"below {domain} z = {state.bottom:g} m": z < state.bottom - TOLERANCE,
+        "in the wall": state.wall is not None and state.wall.contains(points),
+        "above the ground, whose surface is at z = {:.3g} m there": (
+            z > surface + default_window(state).spacing / 2
+        ),
+    }
+    for words, are in outside.items():
+        if np.any(are):
             i = int(np.argmax(are))
-            if words == "above the ground":
-                words += f", whose surface is at z = {surface[i]:.3g} m there"
             raise ResultsError(
                 f"{path}, line {numbers[i]}: the point r = {r[i]:g} m, z = {z[i]:g} m"
-                f" lies {words}"
+                f" lies {words.format(surface[i])}"
             )
     return points
