@@ -32,29 +32,15 @@ from caisson.results import Results, ResultsError, read_table
 from caisson.export import command, decks, tables
 from caisson.export.exported import Exported, force_of_run
 from caisson.export.interpolate import interpolate
-from caisson.export.state import Layer, State, forces_at, layers_of, stress_of
+from caisson.export.state import Layer, State, forces_at, layers_of
 from caisson.export.text import about, judged
 
 CCX = shutil.which("ccx")
 TINY = Path(__file__).with_name("tiny_run")
 
 
-class Stresses(unittest.TestCase):
-    """The one place that knows how frames hold stress."""
-
-    def test_components_and_tensors(self) -> None:
-        parts = {f"stress_{c}_Pa": np.array([i]) for i, c in enumerate(("rr", "zz"))}
-        parts |= {"stress_tt_Pa": np.array([2]), "stress_rz_Pa": np.array([3])}
-        six = {"stress_Pa": np.array([[0, 1, 2, 3, 0, 0]])}
-        nine = {"stress_Pa": np.array([[0, 3, 0, 3, 1, 0, 0, 0, 2]])}
-        for data in (parts, six, nine):
-            np.testing.assert_array_equal(stress_of(data), [[0, 1, 2, 3]])
-
-    def test_missing(self) -> None:
-        with self.assertRaisesRegex(ResultsError, "no stress_rr_Pa"):
-            stress_of({})
-        with self.assertRaisesRegex(ResultsError, "not .n, 6 or 9"):
-            stress_of({"stress_Pa": np.zeros((2, 4))})
+class States(unittest.TestCase):
+    """What is derived from the frames of a run."""
 
     def test_weight_follows_void_ratio(self) -> None:
         """Grains keep their mass; a void ratio that is not known changes nothing."""
@@ -249,7 +235,7 @@ class Balance(Temporary):
         clay = on_mesh(state)
         pull = (clay.applied - sand.applied)[:, 1].sum()
         self.assertAlmostEqual(pull / (5e4 * np.pi * WEDGE.inner**2), 1, delta=0.1)
-        np.testing.assert_array_equal(clay.total, clay.values.stress)
+        np.testing.assert_array_equal(clay.values.total, clay.values.stress)
         said = r"(?s)Stresses are total, .*Layer 1: undrained clay by total stress"
         self.assertRegex("\n".join(about(clay)), said)
 
@@ -272,8 +258,8 @@ class Balance(Temporary):
         lines = (self.path / "a.dat").read_text(encoding="utf-8").split("stresses")[1]
         rows = [line.split() for line in lines.splitlines()[2:] if line.strip()]
         stress = np.array([[float(x) for x in row[2:6]] for row in rows])
-        self.assertEqual(len(stress), 8 * len(found.total))
-        change = stress - np.repeat(found.total, 8, axis=0)
+        self.assertEqual(len(stress), 8 * len(found.values.total))
+        change = stress - np.repeat(found.values.total, 8, axis=0)
         return float(np.linalg.norm(change) / np.linalg.norm(stress))
 
 

@@ -42,7 +42,7 @@ def elements_of(state: Exported) -> Iterator[tuple[str, list[tuple[int, list[int
 
 def stresses_of(state: Exported) -> Iterator[tuple[str, int]]:
     """Yield the stress of each element, and its number of points in CalculiX."""
-    for stress, is_triangle in zip(state.total, state.mesh.is_triangle):
+    for stress, is_triangle in zip(state.values.total, state.mesh.is_triangle):
         *_, points = TRIANGLE if is_triangle else QUADRILATERAL
         yield ", ".join(f"{value:.9g}" for value in stress), points
 

@@ -49,17 +49,6 @@ class Exported:
         """The buoyant weight of the mesh (N)."""
         return float(self.unit_weight @ self.mesh.volumes)
 
-    @property
-    def total(self) -> np.ndarray:
-        """The stress less the excess pore pressure where that is known. It is the total
-        stress less the hydrostatic pressure, which balances buoyant weight."""
-        return total_of(self.values)
-
-
-def total_of(values: Values) -> np.ndarray:
-    """Return the stress less the pressure: [m, 4]."""
-    return values.stress - values.pressure[:, np.newaxis] * [1, 1, 1, 0]
-
 
 def at_ends(mesh: Mesh, edges: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Return forces of edges [k, 2] (N) at the nodes: half at each end [n, 2]."""
@@ -73,7 +62,7 @@ def on_boundary(state: State, mesh: Mesh) -> np.ndarray:
     nodes: [n, 2] (N, whole circumference)."""
     edges = mesh.edges()
     middle = mesh.nodes[edges].mean(axis=1)
-    rr, zz, _, rz = total_of(interpolate(state, middle)).T
+    rr, zz, _, rz = interpolate(state, middle).total.T
     outward = inward(mesh, edges) * -1
     tensor = np.array([[rr, rz], [rz, zz]])
     force = np.einsum("ijk,kj->ki", tensor, outward)

@@ -122,6 +122,13 @@ class Values:
     fields: dict[str, np.ndarray]
     layer: np.ndarray
 
+    @property
+    def total(self) -> np.ndarray:
+        """The stress less the excess pore pressure where that is known: [n, 4] (Pa). It
+        is the total stress less the hydrostatic pressure, which balances buoyant
+        weight."""
+        return self.stress - self.pressure[:, np.newaxis] * [1, 1, 1, 0]
+
     def put(self, places: np.ndarray, of: "Values") -> None:
         """Take the values of others at some places, by their numbers."""
         for name in ("stress", "scatter", "pressure", "displacement", "layer"):

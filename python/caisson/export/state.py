@@ -10,7 +10,7 @@ from caisson.verdict.loaded import LoadedRun
 from caisson.results import ResultsError, Table
 from caisson.export.laws import youngs_modulus
 
-STRESS = ("rr", "zz", "tt", "rz")  # the order of the components everywhere
+STRESS = ("rr", "zz", "tt", "rz")  # the order of the components, in frames too
 # fields that other ones contain, or that are no state of the soil
 LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m"}
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
@@ -19,24 +19,6 @@ LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_re
 TOLERANCE = 1e-6  # m
 # Young's modulus over the norm of the stress, of soil whose law has none
 STIFFNESS = 1e3
-
-
-def stress_of(data: Arrays) -> np.ndarray:
-    """Return the effective stress of points or cells (Pa): [n, 4], tension positive.
-
-    Files have one array for each component, or one symmetric tensor in the order of
-    VTK (rr, zz, tt, rz, zt, tr) or with 9 components by rows.
-    """
-    if "stress_Pa" in data:
-        tensor = data["stress_Pa"].astype(float)
-        order = {6: [0, 1, 2, 3], 9: [0, 4, 8, 1]}.get(tensor.shape[-1])
-        if tensor.ndim == 2 and order is not None:
-            return tensor[:, order]
-        raise ResultsError(f"stress_Pa has the shape {tensor.shape}, not [n, 6 or 9]")
-    names = [f"stress_{component}_Pa" for component in STRESS]
-    if missing := [name for name in names if name not in data]:
-        raise ResultsError(f"the frame has no {missing[0]}")
-    return np.column_stack([data[name] for name in names]).astype(float)
 
 
 @dataclass
@@ -233,7 +215,7 @@ def read_state(run: LoadedRun, frame: Frame) -> State:
         )
     position = frame.positions
     volume = data["whole_volume_m3"].astype(float)
-    stress = stress_of(data)
+    stress = data["stress_Pa"][:, : len(STRESS)].astype(float)
     index, weight, layers = layers_of(run.results.scene, data, volume, stress)
     pressure = data.get("pore_pressure_Pa")
     fields = {

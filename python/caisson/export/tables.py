@@ -77,15 +77,12 @@ def write_vtu(path: Path, state: Exported) -> None:
     )
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-    grid, points = vtkUnstructuredGrid(), vtkPoints()
-    nodes = np.column_stack([state.mesh.nodes, np.zeros(len(state.mesh.nodes))])
-    points.SetData(numpy_to_vtk(nodes, deep=True))
+    grid, points, mesh = vtkUnstructuredGrid(), vtkPoints(), state.mesh
+    points.SetData(numpy_to_vtk(np.pad(mesh.nodes, ((0, 0), (0, 1))), deep=True))
     grid.SetPoints(points)
-    for cell, is_triangle in zip(state.mesh.cells.tolist(), state.mesh.is_triangle):
-        if is_triangle:
-            grid.InsertNextCell(VTK_TRIANGLE, 3, cell[:3])
-        else:
-            grid.InsertNextCell(VTK_QUAD, 4, cell)
+    for cell, is_triangle in zip(mesh.cells.tolist(), mesh.is_triangle):
+        kind, size = (VTK_TRIANGLE, 3) if is_triangle else (VTK_QUAD, 4)
+        grid.InsertNextCell(kind, size, cell[:size])
     for name, values in of_cells(state).items():
         array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
         array.SetName(name)
