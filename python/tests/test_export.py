@@ -328,13 +328,15 @@ class Command(Temporary):
 
     def test_points(self) -> None:
         points, path = self.path / "points.csv", self.path / "out.csv"
-        points.write_text("r_m,z_m\n1,-1\n3,-2\n", encoding="utf-8")
         given = ("--points", points, "--output", path)
         with self.state_of(made_up()):
-            status, text = self.call(TINY, "--to", "csv", *given)
-            self.assertEqual(status, 0, text)
-            found = read_table(path)
-            np.testing.assert_allclose(found["stress_zz_Pa"], [-WEIGHT, -2 * WEIGHT])
+            for text in ("r_m,z_m\n1,-1\n3,-2.5\n", "r_m;z_m\n1;-1\n3;-2,5\n"):
+                points.write_text(text, encoding="utf-8")
+                path.unlink(missing_ok=True)
+                status, text = self.call(TINY, "--to", "csv", *given)
+                self.assertEqual(status, 0, text)
+                stress = read_table(path)["stress_zz_Pa"]
+                np.testing.assert_allclose(stress, [-WEIGHT, -2.5 * WEIGHT])
             self.assertIn("interpolated between", text)
             self.assertEqual(self.call(TINY, "--to", "abaqus", *given)[0], 1)
             for row, words in (

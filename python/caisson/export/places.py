@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from caisson.design import cone_grid
+from caisson.design.cone_table import value_of
 from caisson.results import ResultsError
 from caisson import disk
 from caisson.export.mesh import default_window, steps, surface_of
@@ -15,8 +16,9 @@ COLUMNS = ("r_m", "z_m")
 
 @disk.reads
 def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
-    """Return the points [n, 2] (m) of a table, and the line of each. Raises
-    ResultsError where a row has no two numbers."""
+    """Return the points [n, 2] (m) of a table, and the line of each. Its cells are as
+    those of a cone test: any divider, and a decimal point or comma. Raises ResultsError
+    where a row has no two numbers."""
     points, numbers = [], []
     lines = disk.read_text(path, ResultsError).splitlines()
     rows, _ = cone_grid.grid_of_text(lines)
@@ -25,7 +27,7 @@ def read_table(path: Path) -> tuple[np.ndarray, list[int]]:
         raise ResultsError(f"{path} has no columns r_m and z_m")
     for n, cells in rows[1:]:
         try:
-            point = [float(cells[names.index(name)]) for name in COLUMNS]
+            point = [value_of(cells[names.index(name)]) for name in COLUMNS]
         except (ValueError, IndexError):
             point = [np.nan]
         if not np.isfinite(point).all():
