@@ -6,7 +6,6 @@
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/simulation/recorder.h>
-#include <caisson_mpm/simulation/run_review.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
@@ -423,8 +422,6 @@ namespace CaissonMPM
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
     result.assumed        = assumed;
-    if (records)
-      result.kinetic = kinetic_share_of(parts, *records);
     return result;
   }
 
@@ -465,14 +462,6 @@ namespace CaissonMPM
   {
     print_run_report(*console, parts, facts(""));
     warn_of_no_rest();
-  }
-
-  void
-  Recorder::review_run()
-  {
-    if (parts.grid.is_first_rank())
-      for (const std::string &warning : RunReview(parts, *records).warnings())
-        console->warning(warning);
   }
 
   void

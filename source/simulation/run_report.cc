@@ -115,17 +115,6 @@ namespace CaissonMPM
     }
 
     Json
-    about_inertia(const RunFacts &facts)
-    {
-      if (!facts.kinetic)
-        return Json::object();
-      return {{"kinetic_energy",
-               {{"share_of_work", facts.kinetic->share},
-                {"penetration_m", facts.kinetic->penetration},
-                {"largest_allowed", KineticShare::allowed}}}};
-    }
-
-    Json
     about_size(const RecordedParts &parts, const RunFacts &facts)
     {
       const auto sum = [&parts](const unsigned long value) {
@@ -255,9 +244,13 @@ namespace CaissonMPM
       Json members = object_of(parts.body.shape().dimensions());
       if (members.empty())
         return members;
-      const auto angles = parts.body.surface().friction_angles();
+      const BodyShape &shape  = parts.body.shape();
+      const auto       angles = parts.body.surface().friction_angles();
       append(members,
-             {{"inner_wall_friction_angle_deg", angles[inner_wall]},
+             {{"tip_width_m", shape.width_of_tip()},
+              {"inner_radius_m", shape.left()},
+              {"outer_radius_m", shape.right()},
+              {"inner_wall_friction_angle_deg", angles[inner_wall]},
               {"outer_wall_friction_angle_deg", angles[outer_wall]}});
       const auto &adhesion = parts.body.surface().adhesion;
       append(members,
@@ -367,7 +360,6 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
-    members.update(about_inertia(facts));
     members.update(about_size(parts, facts));
     members.update(counts(parts, facts));
     members.update(about_speed(parts, facts));
@@ -394,7 +386,6 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
-    members.update(about_inertia(facts));
     append(members,
            {{"ranks", parts.grid.n_ranks()},
             {"cells", parts.grid.n_global_cells()},

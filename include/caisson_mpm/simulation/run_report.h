@@ -7,7 +7,6 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
-#include <caisson_mpm/simulation/run_review.h>
 
 #include <optional>
 #include <string>
@@ -31,9 +30,8 @@ namespace CaissonMPM
     double               point_steps    = 0.; // of all ranks
     double               wall_time      = 0.; // s
     std::vector<Warning> warnings;            // of the input and of the run
-    std::vector<std::string>    assumed;      // entries marked so
-    NamedNumbers                progress;     // of a run that has not ended
-    std::optional<KineticShare> kinetic;      // on the rank with the records
+    std::vector<std::string> assumed;         // entries marked so
+    NamedNumbers             progress;        // of a run that has not ended
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The
