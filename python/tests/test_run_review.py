@@ -13,8 +13,12 @@ from caisson.results import Results, Table
 from caisson.verdict import run_review
 
 WALL = 0.1  # m
-LAYERS = [{"layer": 1, "top_depth_m": 0.0, "law": "Mohr-Coulomb", "law_entries": []}]
-CUT_OFF = [{"entry": "Tension cut-off", "value": 1e3, "unit": "Pa"}]
+LAYERS: list[dict[str, Any]] = [
+    {"layer": 1, "top_depth_m": 0.0, "law": "Mohr-Coulomb", "law_entries": []}
+]
+CUT_OFF: list[dict[str, Any]] = [
+    {"entry": "Tension cut-off", "value": 1e3, "unit": "Pa"}
+]
 
 
 def soil(**change: Any) -> dict[str, Any]:

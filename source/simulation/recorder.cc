@@ -460,7 +460,7 @@ namespace CaissonMPM
   void
   Recorder::print_report()
   {
-    print_run_report(*console, parts, facts(""));
+    print_run_report(*console, parts);
     warn_of_no_rest();
   }
 
@@ -503,7 +503,6 @@ namespace CaissonMPM
                          ": history.csv, run.json, points.pvd, grid.pvd" +
                          (parts.body.shape().exists() ? ", body.pvd" : ""));
     console->header(lines);
-    print_run_times(*console, parts, seconds_running());
     console->header(
       {{"next",
         "open " + directory +

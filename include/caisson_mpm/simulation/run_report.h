@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a run reports at its end: run.json, and the tables on the terminal.
+// What a run reports at its end: run.json, and warnings.
 #ifndef caisson_mpm_simulation_run_report_h
 #define caisson_mpm_simulation_run_report_h
 
@@ -50,18 +50,10 @@ namespace CaissonMPM
                       const RecordedParts &parts,
                       const RunFacts      &facts);
 
-  /** Print the counts and the energies. Not collective. */
+  /** Print the energy residual, and warn of what it and the counts say against
+   * the run. Not collective. */
   void
-  print_run_report(Console             &console,
-                   const RecordedParts &parts,
-                   const RunFacts      &facts);
-
-  /** Print what took the wall time, of which there is this. Units: s. Not
-   * collective. */
-  void
-  print_run_times(Console             &console,
-                  const RecordedParts &parts,
-                  const double         total);
+  print_run_report(Console &console, const RecordedParts &parts);
 } // namespace CaissonMPM
 
 #endif
