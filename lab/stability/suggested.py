@@ -14,6 +14,7 @@ table.csv and table.md have what each did.
 import argparse
 import contextlib
 import io
+import itertools
 import math
 import random
 import re
@@ -27,6 +28,7 @@ from caisson import __main__ as program
 from caisson.paths import RESULTS
 from caisson.results import Results, ResultsError
 from caisson.runner import Run, RunError, Status, query, read_parameters
+from caisson.verdict import run_review
 from lab import machine, outcome
 
 NUMBER, QUICK, SEED = 80, 6, 63
@@ -233,7 +235,8 @@ def look_at(case: Case, run: Run, is_timed: bool) -> None:
         case.faults.append(f"status {record['status']}: {last}")
         return
     try:
-        summary = Results(run.directory).summary
+        results = Results(run.directory)
+        summary, warnings = results.summary, run_review.warnings_of(results)
     except ResultsError as error:
         case.faults.append(str(error))
         return
@@ -243,7 +246,7 @@ def look_at(case: Case, run: Run, is_timed: bool) -> None:
         - summary["scene"]["initial_penetration_m"]
     )
     is_long = way >= START * case.wall
-    for warning in summary.get("warnings", []):
+    for warning in itertools.chain(*warnings.values()):
         is_own = OWN_CHOICE.search(warning) and OF_THE_END not in warning
         kind = case.faults if is_own and is_long else case.notes
         kind.append(warning)

@@ -2,11 +2,11 @@
 """Studies of kind "forces": the curves of many runs beside each other.
 
 The only key beside the usual ones is depths: the penetrations (m) at which forces,
-means over 0.2 m, are printed. What the numbers are: caisson.curve.
+means over 0.2 m, are printed. What the numbers are: caisson.verdict.key_numbers.
 """
 from collections.abc import Sequence
 
-from caisson.curve import describe
+from caisson.verdict.key_numbers import describe
 from caisson.results import ResultsError
 from caisson.study import Options, Study
 

@@ -61,7 +61,7 @@ SUMMARY: dict[str, Any] = {
     "fingerprint": "f00d",
     "max_points_in_body": 0,
     "energies": {"energy_residual": 0.004},
-    "warnings": ["the suction lifts the plug"],
+    "results": {"warnings": [{"rank": "result", "text": "the suction lifts the plug"}]},
     "entries": {"Rigid body/Outer diameter": "10"},
     "scene": SCENE,
 }

@@ -318,7 +318,7 @@ class Cards(WithPage):
     def test_plug_that_does_not_balance(self) -> None:
         """Heave without soil that came in or dilated is an error, and is said."""
         for share, is_said in ((0.54, True), (0.01, False)):
-            run = unittest.mock.Mock(is_running=False, summary={})
+            run = unittest.mock.Mock(is_running=False, summary={}, scene={})
             run.history = {"plug_balance_error": np.array([0.0, share])}
             found = " ".join(content.remarks_on_numbers(run))
             self.assertEqual("54 % of the volume that the plug" in found, is_said)

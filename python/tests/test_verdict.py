@@ -103,7 +103,7 @@ class Verdicts(WithPage):
         """A warning that names a penetration below the end of suction is left out."""
         texts = [f"it rises at a penetration of {h:g} m: soil" for h in (3.2, 4.25)]
         ranked = [{"rank": "result", "text": text} for text in [*texts, "slow"]]
-        found = page.warnings_of({"results": {"warnings": ranked}}, 3.5)
+        found = page.warnings_of(self.run_of(results={"warnings": ranked}), 3.5)
         self.assertEqual(found["result"], [texts[0], "slow"])
 
     def test_end_that_the_program_knows(self) -> None:

@@ -160,21 +160,6 @@ namespace CaissonMPM
   }
 
   void
-  Console::table(const std::string &title, const std::vector<TableRow> &rows)
-  {
-    if (verbosity != Verbosity::full)
-      return;
-    std::size_t width = 0;
-    for (const TableRow &row : rows)
-      width = std::max(width, row.name.size());
-    std::string text = title + "\n";
-    for (const TableRow &row : rows)
-      text += "  " + row.name + std::string(width - row.name.size(), ' ') +
-              format("  %10.3f s  %5.1f %%\n", row.seconds, row.percent);
-    print(text);
-  }
-
-  void
   Console::message(const std::string &text)
   {
     print(text + "\n");

@@ -6,7 +6,6 @@
 #include <caisson_mpm/domain/all_points.h>
 #include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/simulation/recorder.h>
-#include <caisson_mpm/simulation/run_review.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
@@ -423,8 +422,6 @@ namespace CaissonMPM
     result.wall_time      = seconds_running();
     result.warnings       = console->warnings();
     result.assumed        = assumed;
-    if (records)
-      result.kinetic = kinetic_share_of(parts, *records);
     return result;
   }
 
@@ -463,16 +460,8 @@ namespace CaissonMPM
   void
   Recorder::print_report()
   {
-    print_run_report(*console, parts, facts(""));
+    print_run_report(*console, parts);
     warn_of_no_rest();
-  }
-
-  void
-  Recorder::review_run()
-  {
-    if (parts.grid.is_first_rank())
-      for (const std::string &warning : RunReview(parts, *records).warnings())
-        console->warning(warning);
   }
 
   void
@@ -514,7 +503,6 @@ namespace CaissonMPM
                          ": history.csv, run.json, points.pvd, grid.pvd" +
                          (parts.body.shape().exists() ? ", body.pvd" : ""));
     console->header(lines);
-    print_run_times(*console, parts, seconds_running());
     console->header(
       {{"next",
         "open " + directory +

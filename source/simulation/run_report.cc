@@ -17,7 +17,6 @@
 #include <cstdio>
 #include <ctime>
 #include <iomanip>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -112,17 +111,6 @@ namespace CaissonMPM
           if (warning.rank == rank)
             ranked.push_back({{"rank", name}, {"text", warning.text}});
       return {{"results", {{"warnings", ranked}}}};
-    }
-
-    Json
-    about_inertia(const RunFacts &facts)
-    {
-      if (!facts.kinetic)
-        return Json::object();
-      return {{"kinetic_energy",
-               {{"share_of_work", facts.kinetic->share},
-                {"penetration_m", facts.kinetic->penetration},
-                {"largest_allowed", KineticShare::allowed}}}};
     }
 
     Json
@@ -255,9 +243,13 @@ namespace CaissonMPM
       Json members = object_of(parts.body.shape().dimensions());
       if (members.empty())
         return members;
-      const auto angles = parts.body.surface().friction_angles();
+      const BodyShape &shape  = parts.body.shape();
+      const auto       angles = parts.body.surface().friction_angles();
       append(members,
-             {{"inner_wall_friction_angle_deg", angles[inner_wall]},
+             {{"tip_width_m", shape.width_of_tip()},
+              {"inner_radius_m", shape.left()},
+              {"outer_radius_m", shape.right()},
+              {"inner_wall_friction_angle_deg", angles[inner_wall]},
               {"outer_wall_friction_angle_deg", angles[outer_wall]}});
       const auto &adhesion = parts.body.surface().adhesion;
       append(members,
@@ -292,33 +284,10 @@ namespace CaissonMPM
 
     // ---------------------------------------------------------- terminal
 
-    /** What a count of the totals is, for readers. */
-    std::string
-    in_words(const std::string &count)
-    {
-      static const std::map<std::string, std::string> words = {
-        {"limiter_count", "velocities cut by the limiter"},
-        {"soil_into_body_m3", "soil that flowed into the body (m3)"},
-        {"thrown_off_count", "points thrown off a free surface"},
-        {"points_split", "points split"},
-        {"points_merged", "points merged"}};
-      const auto found = words.find(count);
-      return found == words.end() ? count : found->second;
-    }
-
     void
-    print_counts(Console             &console,
-                 const RecordedParts &parts,
-                 const RunFacts      &facts)
+    warn_of_thrown_off(Console &console, const RunTotals &totals)
     {
-      Console::Lines lines = {
-        {"points in the body", to_text(facts.max_in_body) + " at any record"}};
-      for (const auto &[name, value] : parts.totals.counts())
-        if (name != "held_back_count" && // large in every run, and harmless
-            (value != 0. || name.find("points_") != 0))
-          lines.emplace_back(in_words(name), to_text(value, 12));
-      console.header(lines);
-      for (const auto &[name, value] : parts.totals.counts())
+      for (const auto &[name, value] : totals.counts())
         if (name == "thrown_off_count" && value > 0.)
           console.warning(
             to_text(value, 12) +
@@ -330,31 +299,16 @@ namespace CaissonMPM
     }
 
     void
-    print_energies(Console &console, const EnergyBalance &energy)
+    print_residual(Console &console, const EnergyBalance &energy)
     {
-      const auto joule = [](const double value) {
-        return to_text(value, 6) + " J";
-      };
-      console.header({{"work of the body", joule(energy.work_of_body)},
-                      {"on the water", joule(energy.work_on_water)},
-                      {"work of gravity", joule(energy.gravity_work)},
-                      {"work of loads", joule(energy.load_work)},
-                      {"stress work", joule(energy.stress_work)},
-                      {"friction heat", joule(energy.friction_heat)},
-                      {"kinetic energy", joule(energy.kinetic_gain)},
-                      {"damping, mass floor",
-                       joule(energy.damping) + ", " + joule(energy.floor)},
-                      {"lost in the transfer", joule(energy.dissipation)},
-                      {"energy residual",
-                       joule(energy.residual) + ", " +
-                         percent(energy.relative, 3) + " of the work"}});
+      const std::string residual = percent(energy.relative, 3) + " of the work";
+      console.header({{"energy residual", residual}});
       // 1.6 % in prm/jack_coarse.prm, whose mesh makes an error of 6 %
       constexpr double largest_residual = .02;
       if (std::abs(energy.relative) > largest_residual)
-        console.warning("the energy residual is " +
-                        percent(energy.relative, 3) +
-                        " of the work, and forces are uncertain by at least as "
-                        "much: see doc/limitations.md, Energy");
+        console.warning("the energy residual is " + residual +
+                        ", and forces are uncertain by at least as much: see "
+                        "doc/limitations.md, Energy");
     }
   } // namespace
 
@@ -367,7 +321,6 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
-    members.update(about_inertia(facts));
     members.update(about_size(parts, facts));
     members.update(counts(parts, facts));
     members.update(about_speed(parts, facts));
@@ -394,7 +347,6 @@ namespace CaissonMPM
     members.update(about_installation(parts, facts));
     members.update(about_input(facts));
     members.update(about_results(facts));
-    members.update(about_inertia(facts));
     append(members,
            {{"ranks", parts.grid.n_ranks()},
             {"cells", parts.grid.n_global_cells()},
@@ -412,28 +364,9 @@ namespace CaissonMPM
   }
 
   void
-  print_run_report(Console             &console,
-                   const RecordedParts &parts,
-                   const RunFacts      &facts)
+  print_run_report(Console &console, const RecordedParts &parts)
   {
-    print_counts(console, parts, facts);
-    print_energies(console, parts.energy);
-  }
-
-  void
-  print_run_times(Console             &console,
-                  const RecordedParts &parts,
-                  const double         total)
-  {
-    std::vector<TableRow> rows;
-    double                sum = 0.;
-    for (const auto &[name, seconds] : parts.timer.seconds())
-      {
-        rows.push_back({name, seconds, 100. * seconds / total});
-        sum += seconds;
-      }
-    rows.push_back({"set-up and rest", total - sum, 100. * (1. - sum / total)});
-    rows.push_back({"total", total, 100.});
-    console.table("wall time", rows);
+    warn_of_thrown_off(console, parts.totals);
+    print_residual(console, parts.energy);
   }
 } // namespace CaissonMPM

@@ -499,7 +499,6 @@ namespace CaissonMPM
     // for pictures of the last state: the run that goes on removes it
     water->write_pressure_to_points();
     recorder.write_frame();
-    recorder.review_run();
     recorder.write_summary("stopped");
     recorder.message("stopped: " + reason + "; resume with --restart");
     return ExitStatus::stopped;
@@ -523,7 +522,6 @@ namespace CaissonMPM
     save_checkpoint();
     const bool passed = recorder.verify();
     recorder.print_report();
-    recorder.review_run();
     recorder.write_summary(passed ? "finished" : "verification failed");
     recorder.print_result();
     return passed ? ExitStatus::success : ExitStatus::failure;

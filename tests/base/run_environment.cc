@@ -307,8 +307,6 @@ test_console()
       console.message("checkpoint written");
       console.warning("two points left their \x1b[31mcell by more than a cell");
       console.failure("1 of 2 checks failed");
-      console.table("Wall time",
-                    {{"points to grid", 12.3456, 61.2}, {"contact", 0.1, 0.5}});
     }
 }
 

@@ -5,7 +5,6 @@
 // its energies.
 #include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/operators/energy_balance.h>
-#include <caisson_mpm/simulation/run_review.h>
 #include <caisson_mpm/simulation/schedule.h>
 
 #include <deal.II/base/mpi.h>
@@ -175,32 +174,6 @@ namespace
     std::printf("missing: %s\n", totals.resume({{"count", 1.}}, true).c_str());
   }
 
-  /** The waves of the start, of 60 and 2 %, do not count once they are gone. */
-  void
-  check_kinetic_share()
-  {
-    const std::vector<double> depth = {.5, .6, .7, .8, .9, 1.},
-                              work = {0., 1., 10., 50., 90., 140.}, none(6, 0.);
-    const auto found               = [&](const std::vector<double> &kinetic,
-                           const double               start) {
-      const auto share = find_kinetic_share(depth, none, kinetic, work, start);
-      return share ? std::to_string(share->share) + " at " +
-                       std::to_string(share->penetration) :
-                                   "none";
-    };
-    std::printf("decayed: %s\n", found({0., .6, .2, .1, .3, .2}, .6).c_str());
-    std::printf("grows: %s\n", found({0., .6, .2, .1, 9., .2}, .6).c_str());
-    std::printf("remains: %s\n", found({0., .6, 1., 2., 3., 7.}, .6).c_str());
-    std::printf("too short: %s\n", found({0., .6, 1., 2., 3., 7.}, 2.).c_str());
-    // pulled up: the work is negative, and the release of the tip is no pull
-    const auto pulled = find_kinetic_share({2., 1.98, 1.96, 1.94},
-                                           {1e6, 1e6, -1e3, -1e3},
-                                           {9., 5., 1., .5},
-                                           {0., -1., -100., -50.},
-                                           .7);
-    verdict("share of a pull", std::abs(pulled->share - .01), 1e-15);
-  }
-
   void
   check_balance()
   {
@@ -232,6 +205,5 @@ main(int argc, char *argv[])
   check_motion();
   check_totals();
   check_balance();
-  check_kinetic_share();
   return 0;
 }

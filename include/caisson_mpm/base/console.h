@@ -56,14 +56,6 @@ namespace CaissonMPM
     WarningRank rank;
   };
 
-  /** One row of the table of times. */
-  struct TableRow
-  {
-    std::string name;
-    double      seconds;
-    double      percent;
-  };
-
   /**
    * All printing of the program, to one stream that is flushed after each
    * call. With Verbosity::plain nothing appears that depends on time, path or
@@ -96,10 +88,6 @@ namespace CaissonMPM
     /** Progress; without remaining time and speed in plain. */
     void
     record(const RecordLine &line);
-
-    /** Times at the end. Only full. */
-    void
-    table(const std::string &title, const std::vector<TableRow> &rows);
 
     void
     message(const std::string &text);

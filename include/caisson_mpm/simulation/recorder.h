@@ -140,10 +140,6 @@ namespace CaissonMPM
     void
     print_report();
 
-    /** Warn of what the results of the run say against it. */
-    void
-    review_run();
-
     /** Print what came out, where it is, and what can be done with it. */
     void
     print_result();

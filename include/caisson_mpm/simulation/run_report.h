@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a run reports at its end: run.json, and the tables on the terminal.
+// What a run reports at its end: run.json, and warnings.
 #ifndef caisson_mpm_simulation_run_report_h
 #define caisson_mpm_simulation_run_report_h
 
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/named_numbers.h>
 #include <caisson_mpm/simulation/recorded_parts.h>
-#include <caisson_mpm/simulation/run_review.h>
 
 #include <optional>
 #include <string>
@@ -31,9 +30,8 @@ namespace CaissonMPM
     double               point_steps    = 0.; // of all ranks
     double               wall_time      = 0.; // s
     std::vector<Warning> warnings;            // of the input and of the run
-    std::vector<std::string>    assumed;      // entries marked so
-    NamedNumbers                progress;     // of a run that has not ended
-    std::optional<KineticShare> kinetic;      // on the rank with the records
+    std::vector<std::string> assumed;         // entries marked so
+    NamedNumbers             progress;        // of a run that has not ended
   };
 
   /** Write run.json: what was run, how large it was and how long it took. The
@@ -52,18 +50,10 @@ namespace CaissonMPM
                       const RecordedParts &parts,
                       const RunFacts      &facts);
 
-  /** Print the counts and the energies. Not collective. */
+  /** Print the energy residual, and warn of what it and the counts say against
+   * the run. Not collective. */
   void
-  print_run_report(Console             &console,
-                   const RecordedParts &parts,
-                   const RunFacts      &facts);
-
-  /** Print what took the wall time, of which there is this. Units: s. Not
-   * collective. */
-  void
-  print_run_times(Console             &console,
-                  const RecordedParts &parts,
-                  const double         total);
+  print_run_report(Console &console, const RecordedParts &parts);
 } // namespace CaissonMPM
 
 #endif

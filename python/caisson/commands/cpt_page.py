@@ -4,6 +4,7 @@ forces of all estimates beside the design methods, on one page."""
 import argparse
 import html
 import re
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from caisson.parameters import methods
 from caisson.parameters.methods import TOTAL, Answers
 from caisson.parameters.outcome import Outcomes, words_of
 from caisson.report import band
-from caisson.verdict import theory
+from caisson.verdict import run_review, theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
 from caisson.design.reasons import text_of
@@ -120,7 +121,7 @@ def troubles_of(outcomes: Outcomes) -> list[str]:
     ]
     warnings: dict[str, list[str]] = {}
     for outcome in outcomes.complete:
-        for warning in outcome.run.results.summary.get("warnings", []):
+        for warning in chain(*run_review.warnings_of(outcome.run.results).values()):
             warnings.setdefault(warning, []).append(outcome.name)
     return found + [f"{', '.join(names)}: {text}" for text, names in warnings.items()]
 

@@ -132,6 +132,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     from caisson import error_bounds, plot, report
     from caisson.report import band, verdict
     from caisson.results import Results
+    from caisson.verdict import run_review
 
     error_bounds.adopt(directory, error_bar)
     run = Results(directory)
@@ -140,7 +141,8 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
         if in_full:
             print(f"plot: {picture}")
     print(f"report: {report.write(directory)}")
-    lines = [*verdict.lines_of(run), band.sentence_of(run)]
+    warnings = [f"warning: {text}" for text in run_review.review_of(run)]
+    lines = [*warnings, *verdict.lines_of(run), band.sentence_of(run)]
     for line in filter(None, lines if in_full else []):
         print(line)
 

@@ -14,6 +14,7 @@ from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.results import ResultsError, Table, read_table
 from caisson.runner import Status
 from caisson.study import Study, StudyError, StudyRun
+from caisson.verdict import run_review
 
 DEPTH, REQUIRED = "penetration_m", "required_suction_Pa"
 # what is observed unless the study says it: the first that all runs have
@@ -94,13 +95,11 @@ def status_of(run: StudyRun) -> tuple[str, str]:
 
 
 def warnings_of(run: StudyRun) -> tuple[str, ...]:
-    """Return what the program has said against the results of a run."""
+    """Return what speaks against the results of a run."""
     try:
-        results = run.results.summary.get("results") or {}
+        return tuple(run_review.warnings_of(run.results)["result"])
     except ResultsError:
         return ()
-    ranked = results.get("warnings", [])
-    return tuple(x["text"] for x in ranked if x["rank"] == "result")
 
 
 def outcome_of(run: StudyRun) -> Outcome:

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson import curve, curves, disk
+from caisson import curves, disk
+from caisson.verdict import key_numbers
 from caisson.verdict import design
 from caisson.paths import distinct_ends, seen
 from caisson.plot.small import in_units, legend_below, over_depth
@@ -179,13 +180,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "print forces at round depths and the roughness of curves, and draw nothing"
     parser.add_argument("--values", action="store_true", help=text)
     text = "depths of --values, in m"
-    parser.add_argument("--at", type=curve.depths, default=curve.DEPTHS, help=text)
+    parser.add_argument(
+        "--at", type=key_numbers.depths, default=key_numbers.DEPTHS, help=text
+    )
 
 
 def main(options: argparse.Namespace) -> int:
     """Draw the picture and write the file, or print."""
     if options.values:
-        return curve.print_all(options.words, options.at)
+        return key_numbers.print_all(options.words, options.at)
     picture: Path | None = None
     directories = options.words
     if directories[0].suffix in PICTURES and not directories[0].is_dir():

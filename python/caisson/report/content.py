@@ -11,7 +11,7 @@ from caisson.evaluation import depths_of
 from caisson.band import band_of
 from caisson.curves import error_band
 from caisson.plot import forces
-from caisson.verdict import design, suction_methods, theory
+from caisson.verdict import design, run_review, suction_methods, theory
 from caisson.plot.band import LABEL, range_of
 from caisson.verdict.limits import BOILING, LID, LIMITS
 from caisson.plot.suction import ALLOWABLE, CRITICAL, WIDE_COLOR, color_of
@@ -404,12 +404,11 @@ def remarks_on_numbers(run: Results) -> list[str]:
                     f"The curve scatters by {rough:.2g} % about its mean over"
                     f" {curves.FORCE_WINDOW} m."
                 )
-    if kinetic := summary.get("kinetic_energy"):
-        slow = kinetic["share_of_work"] <= kinetic["largest_allowed"]
+    if kinetic := run_review.kinetic_share_of(run):
+        slow = "slow enough" if kinetic.is_small else "too fast, see the warnings"
         found.append(
-            f"Kinetic energy is at most {100 * kinetic['share_of_work']:.2g} % of the"
-            f" work, once the waves of the start have decayed: the run is"
-            f" {'slow enough' if slow else 'too fast, see the warnings'}."
+            f"Kinetic energy is at most {run_review.percent(kinetic.share)} of the"
+            f" work, once the waves of the start have decayed: the run is {slow}."
         )
     inside = summary.get("max_points_in_body", 0)
     found.append(

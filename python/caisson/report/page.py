@@ -9,7 +9,7 @@ import numpy as np
 
 from caisson.template import picture_of, template
 from caisson import evaluation, plot
-from caisson.verdict import installation, limits
+from caisson.verdict import installation, limits, run_review
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -133,20 +133,16 @@ def job_of(run: Results, summary: dict[str, Any]) -> list[tuple[str, str]]:
     ] + ([("Use", use)] if (use := layers.use_of(run)) else [])
 
 
-def warnings_of(
-    summary: dict[str, Any], end: float | None = None
-) -> dict[str, list[str]]:
+def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:
     """Return the warnings by their rank, without those about what is deeper than the
-    end of suction (m); older files have no ranks, so that all count."""
-    found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
-    ranked = (summary.get("results") or {}).get("warnings")
-    if ranked is None:
-        return {**found, "result": list(summary.get("warnings", []))}
-    for warning in ranked:
-        place = AT_PENETRATION.search(warning["text"])
-        if end is None or place is None or float(place[1]) <= end:
-            found[warning["rank"]].append(warning["text"])
-    return found
+    end of suction (m)."""
+
+    def counts(text: str) -> bool:
+        place = AT_PENETRATION.search(text)
+        return end is None or place is None or float(place[1]) <= end
+
+    found = run_review.warnings_of(run)
+    return {rank: list(filter(counts, texts)) for rank, texts in found.items()}
 
 
 def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
@@ -238,7 +234,7 @@ def html(run: Results, rate: Rate) -> str:
         pictures=pictures_of(run),
         charts=CHARTS,
         remarks=content.remarks_on_numbers(run),
-        warnings=warnings_of(summary, said.end),
+        warnings=warnings_of(run, said.end),
         entries=scene.entries_of(run) if summary else {},
         defaults=scene.defaults_of(run) if summary else {},
         facts=facts_of(run),

@@ -18,7 +18,7 @@ from caisson.evaluation import DEPTH, sinks_on
 from caisson.report import pull, remedies
 from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
-from caisson.verdict import installation, outcome, uncertainty
+from caisson.verdict import installation, outcome, run_review, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.limits import COMPUTED, PIPING
@@ -287,6 +287,8 @@ def keep(run: Results) -> str:
         known["feasible_to_m"] = found.end
     if rows := rows_of_limits(run, found.end):
         known["limits"] = rows
+    if warnings := list(run_review.review_of(run)):
+        known["warnings"] = warnings
     if parts := [x.as_json() for x in uncertainty.at_end(band_of(run))]:
         known["uncertainty"] = parts
     text = json.dumps(known, indent=2, ensure_ascii=False) + "\n"

@@ -17,6 +17,7 @@ import numpy as np
 from caisson import curves
 from caisson.command_line import for_each
 from caisson.results import Results, Table
+from caisson.verdict.run_review import kinetic_share_of
 
 DEPTHS = (1, 1.5, 2, 3, 4, 5, 6, 6.4)
 
@@ -72,8 +73,8 @@ def describe(directory: Path, depths: Sequence[float]) -> Iterator[str]:
     found: list[str] = []
     if np.isfinite(rough).all():
         found.append("roughness: tip {:.2f} %, total {:.2f} %".format(*rough))
-    if kinetic := run.summary.get("kinetic_energy"):
-        found.append(f"KE/W {100 * kinetic['share_of_work']:.3f} %")
+    if kinetic := kinetic_share_of(run):
+        found.append(f"KE/W {100 * kinetic.share:.3f} %")
     if found:
         yield "  " + ";  ".join(found)
     yield (

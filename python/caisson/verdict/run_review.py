@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the records of a run say against it: a tip force that falls suddenly, a wall
+from which clay has come off, work that the transfer between points and nodes has lost,
+and soil that moves too fast."""
+import functools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from caisson.results import Results, Table
+from caisson.table import digits
+
+# A fall counts if it takes less than this way, in widths of the tip. The stretches of
+# the way, over which forces are averaged, are an eighth of that: single rows scatter.
+SHORT_WAY, STRETCH = 0.5, 0.5 / 8
+# Within so many widths of the start, or of an interface between layers, forces change
+# for a reason.
+START_TAKES, INTERFACE_TAKES = 2.0, 8.0
+LARGEST_FALL = 0.05  # without a fault below 2 % of the tip force (doc/limitations.md)
+SAME_SPEED = 0.1  # the speeds of two stretches that are compared differ by less
+# Clay that stays at the wall bears 0.93 of adhesion times area and more from this depth
+# on, in widths of the tip.
+LEAST_OF_ADHESION, ADHESION_FROM = 0.9, 3.0
+# With 3 % lost, the tip force of prm/jack_coarse.prm is 6 % too large, and with 6 to
+# 18 % lost, 12 to 55 %. Waves of undrained water lose more, which the force does not
+# contain.
+LARGEST_LOST, LARGEST_LOST_UNDRAINED = 0.03, 0.1
+LARGEST_KINETIC = 0.01  # of the work, in a run whose forces are those of slow motion
+LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
+
+
+@dataclass(frozen=True)
+class KineticShare:
+    """The largest kinetic energy of the soil over the work of the body, and the
+    penetration there (m)."""
+
+    share: float
+    penetration: float
+
+    @property
+    def is_small(self) -> bool:
+        """Whether the forces are those of slow motion."""
+        return self.share <= LARGEST_KINETIC
+
+
+def kinetic_share(history: Table, start: float) -> KineticShare | None:
+    """Return the share from a penetration (m) on, once the waves of the start have
+    decayed: from the first row on that has no more than is allowed, or in the last row
+    where there is none. Of a body that is pulled up, only rows with a pull count, as
+    soil springs up when the load on it goes. None where no row counts."""
+    depth, work = history["penetration_m"], history["external_work_J"]
+    work = abs(work + history.get("water_work_J", 0.0))
+    force = history.get("total_force_with_water_N", history["total_force_N"])
+    if depth[-1] < depth[0]:
+        counts = (force < 0) & (work > LEAST_WORK_OF_PULL * work.max())
+    else:
+        counts = depth >= start
+    rows = np.flatnonzero(counts & (work > 0))
+    if not len(rows):
+        return None
+    shares = np.maximum(history["kinetic_energy_J"][rows], 0) / work[rows]
+    decayed = np.flatnonzero(shares <= LARGEST_KINETIC)
+    first = decayed[0] if len(decayed) else len(rows) - 1
+    worst = first + int(np.argmax(shares[first:]))
+    return KineticShare(float(shares[worst]), float(depth[rows[worst]]))
+
+
+def percent(share: float) -> str:
+    """Return a share in percent, with two digits."""
+    return f"{float(digits(100 * share, 2)):g} %"
+
+
+def tip_width(run: Results) -> float:
+    """Return the width of the tip (m); 0 where it is not known, or there is none."""
+    return float(run.scene.get("tip_width_m", 0.0))
+
+
+def start_of(run: Results) -> float:
+    """Return the penetration (m) from which forces are not those of the start."""
+    first = float(run.scene.get("initial_penetration_m", 0.0))
+    return first + START_TAKES * tip_width(run)
+
+
+def kinetic_share_of(run: Results) -> KineticShare | None:
+    """Return the share of a run; None without a body that has a tip."""
+    if not tip_width(run) or "external_work_J" not in run.history:
+        return None
+    return kinetic_share(run.history, start_of(run))
+
+
+def way_down(history: Table, length: float) -> Table:
+    """Return means over stretches of a length (m) of the way down, until the body is
+    first pulled up: depth and speed, and the forces and suction of the history, each
+    [n_stretches]. A row of the history holds the mean since the row before."""
+    moved = np.diff(history["penetration_m"])
+    passed = np.diff(history["time_s"])
+    up = np.flatnonzero(moved < 0)
+    end = up[0] if len(up) else len(moved)
+    rows = np.flatnonzero((moved[:end] > 0) & (passed[:end] > 0))
+    depth = history["penetration_m"][1:][rows] - 0.5 * moved[rows]
+    firsts: list[int] = []  # rows with which stretches begin
+    for row, middle in enumerate(depth):
+        if not firsts or middle >= depth[firsts[-1]] + length:
+            firsts.append(row)
+
+    def means(values: np.ndarray) -> np.ndarray:
+        if not firsts:
+            return np.zeros(0)
+        sizes = np.diff([*firsts, len(values)])
+        return np.asarray(np.add.reduceat(values, firsts) / sizes)
+
+    zeros = np.zeros_like(history["time_s"])
+    columns = "tip_force_N", "suction_Pa", "inner_friction_N", "outer_friction_N"
+    return {"depth": means(depth), "speed": means(moved[rows] / passed[rows])} | {
+        name: means(history.get(name, zeros)[1:][rows]) for name in columns
+    }
+
+
+class Review:
+    """A run that has ended, and what speaks against its results."""
+
+    def __init__(self, run: Results) -> None:
+        self.run = run
+        self.width = tip_width(run)
+        self.way = way_down(run.history, STRETCH * self.width)
+        self.layers: list[dict[str, Any]] = run.scene.get("layers", [])
+
+    def warnings(self) -> list[str]:
+        """Return a warning for each fault that is seen."""
+        walls = [self.bare_wall(side) for side in ("inner", "outer")]
+        found = [self.fall_of_tip(), *walls, self.lost_work(), self.fast_soil()]
+        return [text for text in found if text]
+
+    def interfaces(self) -> np.ndarray:
+        """Return the depths (m) at which another layer begins: [n]."""
+        pairs = zip(self.layers, self.layers[1:])
+        return np.array(
+            [b["top_depth_m"] for a, b in pairs if a["layer"] != b["layer"]]
+        )
+
+    def falls(self) -> Iterator[tuple[float, float]]:
+        """Yield by how much the tip force falls over a short way, relative to what it
+        was, and where (m), at speeds that agree and without a suction, which unloads
+        the tip, and where no layer begins."""
+        depth, tip, speed = (
+            self.way[name] for name in ("depth", "tip_force_N", "speed")
+        )
+        near = np.abs(depth[:, np.newaxis] - self.interfaces()) <= (
+            INTERFACE_TAKES * self.width
+        )
+        pumps = self.way["suction_Pa"] > 0
+        counts = (depth >= start_of(self.run)) & ~near.any(axis=1) & ~pumps
+        firsts = np.searchsorted(depth, depth - (1 + 1e-6) * SHORT_WAY * self.width)
+        for after in np.flatnonzero(counts):
+            for before in range(firsts[after], after):
+                close = abs(speed[before] - speed[after]) <= SAME_SPEED * speed[before]
+                if close and tip[before] > 0 and not pumps[before]:
+                    yield 1 - tip[after] / tip[before], depth[after]
+
+    def fall_of_tip(self) -> str:
+        """Return a warning of a tip force that falls suddenly."""
+        share, depth = max(self.falls(), default=(0.0, 0.0))
+        if share <= LARGEST_FALL:
+            return ""
+        return (
+            f"the tip force falls by {percent(share)} within half of the width of the"
+            f" tip at a penetration of {depth:.4g} m, where no layer begins. Soil that"
+            " is pushed aside steadily does not do that: the mesh or the points are too"
+            " coarse there, and the curve is uncertain by as much. Set more Rigid"
+            " body/Cells across the wall, or Material points/Split and merge = true,"
+            " and compare: see doc/limitations.md, Snaps at the tip"
+        )
+
+    def has_cut_off(self) -> bool:
+        """Return whether a layer has a tension cut-off, so that it may come off."""
+        return any(
+            item["entry"] == "Tension cut-off" and (item["value"] or 0) > 0
+            for layer in self.layers
+            for item in layer["law_entries"]
+        )
+
+    def adhesion_down_to(self, depth: np.ndarray, side: str) -> np.ndarray:
+        """Return adhesion times area of a wall (N) down to depths [n] (m), for the
+        whole circumference: [n]."""
+        tops = [layer["top_depth_m"] for layer in self.layers]
+        of_body = self.run.scene[f"{side}_wall_adhesion_Pa"]
+        sums = np.zeros_like(depth)
+        for layer, top, end in zip(self.layers, tops, [*tops[1:], np.inf]):
+            adhesion = layer.get("wall_adhesion_Pa", of_body)
+            sums += adhesion * np.maximum(np.minimum(end, depth) - top, 0)
+        radius = self.run.scene[f"{side}_radius_m"]
+        return np.asarray(2 * np.pi * radius * sums)
+
+    def bare_wall(self, side: str) -> str:
+        """Return a warning of clay that has come off a wall; the shape of the tip takes
+        up to a width of the wall."""
+        is_round = self.run.entry("Grid/Geometry") == "axisymmetric"
+        if not is_round or not self.has_cut_off():
+            return ""
+        rows = self.way["depth"] >= ADHESION_FROM * self.width
+        borne = self.way[f"{side}_friction_N"][rows].sum()
+        depth = self.way["depth"][rows] - self.width
+        due = self.adhesion_down_to(depth, side).sum()
+        if due <= 0 or borne >= LEAST_OF_ADHESION * due:
+            return ""
+        return (
+            f"the friction on the {side} wall is {percent(1 - borne / due)} below"
+            " adhesion times area, in the mean over the way: the clay has come off part"
+            " of the wall, where nothing presses it on, and adhesion acts only where it"
+            " touches. Set Soil/Layer/Tension cut-off = 0, its default, if the clay"
+            " stays at the wall, as saturated clay does until water enters the gap: see"
+            " doc/limitations.md, I have clay"
+        )
+
+    def lost_work(self) -> str:
+        """Return a warning of work that the transfer has lost."""
+        energy = self.run.known.get("energies", {})
+        work = sum(energy.get(f"{n}_work_J") or 0 for n in ("external", "water"))
+        lost = energy.get("numerical_dissipation_J") or 0
+        undrained = self.run.entry("Water/Level") in ("undrained", "coupled")
+        allowed = LARGEST_LOST_UNDRAINED if undrained else LARGEST_LOST
+        if work <= 0 or lost <= allowed * work:
+            return ""
+        return (
+            "the transfer between points and nodes has lost"
+            f" {percent(lost / work)} of the work of the body. The force contains it,"
+            " and has been seen too large by two to five times as much. Reduce"
+            " Time/Mass scaling or Rigid body/Velocity, set finer cells where the"
+            " stiffness changes, or a larger Method/FLIP fraction, and compare: see"
+            " doc/limitations.md, Energy"
+        )
+
+    def fast_soil(self) -> str:
+        """Return a warning of forces of which inertia is a part."""
+        found = kinetic_share_of(self.run)
+        if found is None or found.is_small:
+            return ""
+        return (
+            f"the kinetic energy of the soil is {percent(found.share)} of the work of"
+            f" the body at a penetration of {found.penetration:.4g} m, more than"
+            f" {percent(LARGEST_KINETIC)}: inertia is a part of the forces. Reduce"
+            " Time/Inertia tolerance, Time/Mass scaling or Rigid body/Velocity, and"
+            " compare: see doc/limitations.md, Start and velocity"
+        )
+
+
+@functools.lru_cache(maxsize=32)
+def review_of(run: Results) -> tuple[str, ...]:
+    """Return what the records of a run that has ended say against it."""
+    if run.is_running or not tip_width(run) or "tip_force_N" not in run.history:
+        return ()
+    return tuple(Review(run).warnings())
+
+
+def warnings_of(run: Results) -> dict[str, list[str]]:
+    """Return what the program has warned of, and what the records say against the run,
+    by rank: "result", "input" and "cosmetic". Raises ResultsError."""
+    found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
+    for warning in (run.known.get("results") or {}).get("warnings", []):
+        found[warning["rank"]].append(warning["text"])
+    found["result"] += review_of(run)
+    return found
