@@ -6,14 +6,26 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from caisson import disk
+
+if TYPE_CHECKING:
+    from caisson.shown import Units
+
+NOTHING = 5e-4  # of a unit of a table
 
 
 def number(value: float | None, digits: int = 5) -> str:
     """Return a number with some digits, "-" for none."""
     return "-" if value is None else f"{value:.{digits}g}"
+
+
+def text_of(value: float) -> str:
+    """Return three digits, more before the point; nothing for what is no number."""
+    if not math.isfinite(value):
+        return ""
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
 def cell(value: object) -> str:
@@ -42,6 +54,26 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
 def by_rows(columns: Mapping[str, Iterable[str]]) -> dict[str, Any]:
     """Return columns of text as heads and rows, as pages take them."""
     return {"heads": list(columns), "rows": list(map(list, zip(*columns.values())))}
+
+
+def shown_text(value: Any, factor: float) -> str:
+    """Return a word as it is, and a number times a factor; next to nothing is 0."""
+    if isinstance(value, str):
+        return value
+    number = factor * float(value)
+    return text_of(0.0 if abs(number) < NOTHING else number)
+
+
+def in_units(columns: Mapping[str, Any], shown: "Units") -> dict[str, Any]:
+    """Return columns of words or numbers [n], whose heads name their units, as heads
+    and rows in the units shown; those that are empty are left out."""
+    return by_rows(
+        {
+            shown.named(head): [shown_text(x, shown.factor_of(head)) for x in values]
+            for head, values in columns.items()
+            if len(values)
+        }
+    )
 
 
 def text_cell(value: Any) -> Any:

@@ -14,9 +14,11 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 import caisson.report as report
 from caisson import plot
 from caisson.verdict import limits, outcome
-from caisson.report import verdict
+from caisson.report import page, verdict
 from caisson.verdict import installation
 from caisson.results import Results
+from caisson.shown import USUAL
+from caisson.template import say
 
 SAND = SCENE["layers"][0]
 CLAY = {**SAND, "friction_angle_deg": 0, "cohesion_Pa": 5e3, "wall_adhesion_Pa": 1e3}
@@ -174,7 +176,7 @@ class Governing(WithPage):
         thin = {"wall_thickness_m": 0.01}
         step = {"wall_step_1_above_tip_m": 1.0, "wall_step_1_thickness_m": 0.01}
         ring = {**thin, "ring_1_above_tip_m": 4.0, "ring_1_height_m": 0.04}
-        found, words, at = list[float](), list[str](), np.array([2.0])
+        found, rings, at = list[float](), list[tuple[int, int]](), np.array([2.0])
         for scene in (
             thin,
             {"wall_thickness_m": 0.02, **step},
@@ -183,13 +185,16 @@ class Governing(WithPage):
         ):
             run = self.run_of(scene)
             found.append(float(limits.limits_of(run, at)[limits.SHELL][0]))
-            words.append(limits.rings_in_words(run, at))
+            rings.append(limits.rings_counted(run, at))
         plain, stepped, weak, stiff = found
-        self.assertEqual((weak, words[:2]), (plain, ["", ""]))
+        self.assertEqual((weak, rings[:2]), (plain, [(0, 0), (0, 0)]))
         self.assertAlmostEqual(stepped / plain, 1, delta=0.01)
-        self.assertIn("Rings are not counted where the wall buckles", words[2])
+        self.assertEqual(rings[2], (1, 0))
         self.assertGreater(stiff, 1.2 * plain)
-        self.assertIn("Rings divide the wall", words[3])
+        self.assertEqual(rings[3], (1, 1))
+        for counted, words in zip(rings[2:], ("are not counted where", "divide")):
+            said = say(page.LIMITS, "factors", USUAL, [], counted, [])
+            self.assertIn(f"Rings {words} the wall", said)
 
     def test_all_kinds_have_a_row(self) -> None:
         """Those of which a run has none say why."""

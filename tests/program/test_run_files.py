@@ -18,7 +18,7 @@ from program import (
 
 from caisson import error_bounds
 from caisson.verdict import design
-from caisson.design.reasons import text_of
+from caisson.table import text_of
 from caisson.report import verdict
 from caisson.verdict import installation
 from caisson.report import page as page_module

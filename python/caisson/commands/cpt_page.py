@@ -21,7 +21,7 @@ from caisson.report import band
 from caisson.verdict import run_review, theory
 from caisson.results import ResultsError
 from caisson.study import Options, Study, file_name
-from caisson.design.reasons import text_of
+from caisson.table import text_of
 
 HERE = Path(__file__).parent
 NAME = "report.html"

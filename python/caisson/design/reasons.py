@@ -9,19 +9,11 @@ from typing import NamedTuple
 
 from caisson.design.method import Forces
 from caisson.shown import units_for
+from caisson.table import text_of
 
 LIKE = (0.8, 1.25)  # computed over method; within it nobody asks why
 RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips
 K_TAN = "K tan \N{GREEK SMALL LETTER DELTA}"
-
-
-def text_of(value: float) -> str:
-    """Return three digits, more before the point."""
-    if not math.isfinite(value):
-        return ""
-    if abs(value) >= 100:
-        return f"{value:.0f}"
-    return f"{value:.3g}"
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:

@@ -80,27 +80,21 @@ def write_page(
     """Write the page of a log beside its picture; return its path. extrapolated: which
     lines are so in each row."""
     from caisson import report
-    from caisson.design.reasons import text_of
     from caisson.log import words
+    from caisson.table import text_of
     from caisson.template import picture_of, template
 
-    shown = expected.run.shown
-    names = {name: name.rpartition("_")[::2] for name in columns}
-    heads = [
-        shown.named(f"{n.replace('_', ' ')} ({u})")
-        for n, u in ((a, b) for a, b in names.values())
-    ]
-    texts = [
-        [text_of(shown.factor(names[n][1]) * x) if np.isfinite(x) else "" for x in c]
-        for n, c in columns.items()
-    ]
+    shown, texts = expected.run.shown, dict[str, list[str]]()
+    for name, values in columns.items():
+        quantity, _, unit = name.rpartition("_")
+        head = shown.named(f"{quantity.replace('_', ' ')} ({unit})")
+        texts[head] = [text_of(shown.factor(unit) * x) for x in values]
     css = Path(report.__file__).parent / "page.css"
     text = template(HERE / "page.html.jinja").render(
         title=expected.title,
         said=said,
         source=words.of_source(expected),
-        heads=[*heads, EXTRAPOLATED],
-        rows=list(zip(*texts, extrapolated)),
+        columns=texts | {EXTRAPOLATED: extrapolated},
         picture=picture_of(path.parent / PICTURE),
         style=css.read_text(encoding="utf-8"),
     )

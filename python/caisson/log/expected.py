@@ -14,7 +14,8 @@ import numpy as np
 from caisson import band, curves, evaluation
 from caisson.band import BEST, ESTIMATES, HIGH, LOW
 from caisson.verdict import suction_methods, theory
-from caisson.verdict.installation import Rate, installation_of, plug_area
+from caisson.verdict.installation import Installation, Rate, installation_of
+from caisson.verdict.installation import plug_area
 from caisson.report.scene import end_of
 from caisson.results import Results, ResultsError
 
@@ -60,17 +61,11 @@ class Expected:
         """Return which of low, best and high are extrapolated at a depth (m)."""
         return " ".join(x for x in ESTIMATES if depth > self.known_to(x) + curves.EDGE)
 
-    def extrapolations(self, upto: float = np.inf) -> str:
+    def extrapolations(self, upto: float = np.inf) -> list[tuple[str, float]]:
         """Return which of low, best and high are extrapolated above a depth (m), and
-        from where on, in words; "" for none."""
-        place, end = self.run.shown.place, min(upto, float(self.depth[-1]))
-        parts = [
-            f"{'best and allowable' if name == BEST else name} from"
-            f" {place(self.known_to(name))} on"
-            for name in ESTIMATES
-            if self.known_to(name) < end
-        ]
-        return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
+        from where on (m)."""
+        known, end = {x: self.known_to(x) for x in ESTIMATES}, float(self.depth[-1])
+        return [pair for pair in known.items() if pair[1] < min(upto, end)]
 
     def suction(
         self, resistance: np.ndarray, weight: float | None = None
@@ -126,14 +121,13 @@ def continued(values: np.ndarray, best: np.ndarray) -> np.ndarray:
     return best * ratio
 
 
-def by_error_bar(run: Results, at: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
+def by_error_bar(
+    run: Results, found: Installation, best: np.ndarray
+) -> list[np.ndarray]:
     """Return low and high (kN) by the error bar of a run, none without one."""
-    found = installation_of(run, Rate(), at)
-    bars = found and found.required_bounds
-    if not found or not bars:
-        return []
-    area = plug_area(run.scene)
-    return [best + area * (side - found.required) for side in (bars.low, bars.high)]
+    area, bars = plug_area(run.scene), found.required_bounds
+    sides = (bars.low, bars.high) if bars else ()
+    return [best + area * (side - found.required) for side in sides]
 
 
 def by_methods(run: Results, at: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
@@ -150,13 +144,15 @@ def by_methods(run: Results, at: np.ndarray, best: np.ndarray) -> list[np.ndarra
 
 
 def band_about(
-    run: Results, at: np.ndarray, best: np.ndarray
+    run: Results, found: Installation, best: np.ndarray
 ) -> tuple[list[np.ndarray], str]:
     """Return low and high (kN) about the best estimate where no run has them, and what
     they are."""
     some = {
-        "the error bar of the run": by_error_bar(run, at, best),
-        "the range of the design methods about the run": by_methods(run, at, best),
+        "the error bar of the run": by_error_bar(run, found, best),
+        "the range of the design methods about the run": by_methods(
+            run, found.depth, best
+        ),
     }
     widths = {
         name: float(np.nanmean(np.log(ends[1] / ends[0])))
@@ -185,18 +181,18 @@ def expected_of(run: Results) -> Expected:
     best = found[BEST]
     longest = max(found.values(), key=lambda x: int(np.isfinite(x).sum()))
     best = continued(best, longest)
+    limits = installation_of(run, Rate(), at)
+    assert limits is not None  # it has a required suction
     if LOW in found and HIGH in found:
         ends = [found[LOW], found[HIGH]]
         source = "the runs of low and high resistance"
     else:
-        ends, source = band_about(run, at, best)
+        ends, source = band_about(run, limits, best)
     extrapolated = {
         name: ~np.isfinite(line)
         for name, line in zip(ESTIMATES, (ends[0], found[BEST], ends[1]))
     }
     low, high = (continued(side, best) for side in ends)
-    limits = installation_of(run, Rate(), at)
-    assert limits is not None  # it has a required suction
     return Expected(
         run,
         at,

@@ -9,6 +9,7 @@ those of a cone test: any divider, and a decimal point or comma.
 import contextlib
 import datetime
 import re
+import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -24,31 +25,7 @@ from caisson.log.expected import Expected
 from caisson.log.forecast import LEAST_NOISE, Bins
 from caisson.terminal import printable
 
-LENGTH = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
-PRESSURE = {
-    **{"kPa": 1.0, "Pa": 1e-3, "MPa": 1e3, "bar": 100.0, "mbar": 0.1, "hPa": 0.1},
-    **{"kN/m2": 1.0, "N/m2": 1e-3, "MN/m2": 1e3, "N/mm2": 1e3, "kg/cm2": 98.0665},
-    **{"psi": 6.894757, "psf": 0.04788026, "ksf": 47.88026, "atm": 101.325},
-    **{"mH2O": 9.80665, "mwc": 9.80665, "mmHg": 0.1333224, "inHg": 3.386389},
-}
-TON, POUND = 9.80665, 4.448222e-3  # kN
-FORCE = {
-    **{"kN": 1.0, "N": 1e-3, "MN": 1e3, "t": TON, "te": TON, "tonnes": TON},
-    **{"kg": TON / 1e3, "lb": POUND, "lbf": POUND, "kip": 1e3 * POUND},
-}
-HOUR = 3600.0
-FLOW = {
-    **{"m3/h": 1.0, "m3/hr": 1.0, "m3/min": 60.0, "m3/s": HOUR, "l/s": 3.6},
-    **{"l/min": 0.06, "lpm": 0.06, "l/h": 1e-3, "gpm": 0.2271247},
-}
-ANGLE = {
-    **dict.fromkeys(("deg", "degree", "degrees", "°"), 1.0),
-    **{"rad": 180 / np.pi, "mrad": 0.18 / np.pi},
-}
-TIME = {
-    **{"s": 1.0, "sec": 1.0, "min": 60.0, "h": HOUR, "hr": HOUR, "d": 24 * HOUR},
-    "ms": 1e-3,
-}
+TABLE = Path(__file__).with_name("quantities.toml")
 
 
 class Quantity(NamedTuple):
@@ -66,55 +43,14 @@ class Quantity(NamedTuple):
         return {plain(name): x for name, x in self.units.items()}.get(unit)
 
 
-QUANTITIES = {
-    "time": Quantity(
-        TIME, "s", "s", "time t clock timestamp datetime date utc elapsedtime"
-    ),
-    "depth": Quantity(
-        LENGTH,
-        "m",
-        "m",
-        "depth z penetration tipdepth embedment skirtpenetration tippenetration"
-        " penetrationdepth skirtdepth",
-    ),
-    "suction": Quantity(
-        PRESSURE,
-        "",
-        "kPa",
-        "suction s underpressure differentialpressure dp pressuredifference pressure"
-        " vacuum suctionpressure diffpressure deltap pressuredifferential"
-        " appliedsuction pumpsuction netsuction",
-    ),
-    "flow": Quantity(
-        FLOW, "m3/h", "m3/h", "flow q pumpflow flowrate discharge pumprate"
-    ),
-    "tilt": Quantity(
-        ANGLE, "deg", "deg", "tilt inclination totaltilt tiltangle resultanttilt"
-    ),
-    "pitch": Quantity(
-        ANGLE,
-        "deg",
-        "deg",
-        "pitch trim pitchangle trimangle tiltx xtilt inclinationx xinclination tilt1"
-        " inclination1 tilta tiltn tiltns",
-    ),
-    "roll": Quantity(
-        ANGLE,
-        "deg",
-        "deg",
-        "roll heel list rollangle heelangle tilty ytilt inclinationy yinclination"
-        " tilt2 inclination2 tiltb tilte tiltew",
-    ),
-    "weight": Quantity(
-        FORCE, "", "kN", "weight weightinwater submergedweight weightonsoil ballast"
-    ),
-    "resistance": Quantity(
-        FORCE,
-        "",
-        "kN",
-        "resistance penetrationresistance soilresistance totalresistance",
-    ),
-}
+def quantities_of(path: Path) -> dict[str, Quantity]:
+    """Return what a table of quantities and units has, by name."""
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    kinds = table.pop("units")
+    return {k: Quantity(**q | {"units": kinds[q["units"]]}) for k, q in table.items()}
+
+
+QUANTITIES = quantities_of(TABLE)
 EXAMPLE = "time_s, depth_m, suction_kPa, flow_m3/h, tilt_deg, weight_kN"
 SHARE = 0.01  # of the way: the length of a step
 NEEDED = {"depth", "suction", "weight", "resistance"}  # if there, to be understood

@@ -112,6 +112,6 @@ def draw(
     draw_forecast(axes, forecast)
     draw_log(axes, expected, log, bins, forecast.weight)
     legend_below(axes, 2)
-    with_note(figure, textwrap.fill(" ".join(words.of_source(expected)), 110))
+    with_note(figure, textwrap.fill(words.of_source(expected), 110))
     in_units(figure, expected.run.shown)
     return disk.save(figure, path)

@@ -13,6 +13,7 @@ from caisson.log import picture, words
 from caisson.log.expected import Expected, expected_of
 from caisson.results import Results
 from caisson.table import digits, write_csv
+from caisson.template import say_rows
 
 PDF, TABLE = "log_sheet.pdf", "log_sheet.csv"
 A4 = (8.27, 11.69)  # inches
@@ -35,25 +36,14 @@ def rows_of(expected: Expected) -> list[list[float]]:
 
 def criteria_of(expected: Expected) -> list[str]:
     """Return when to stop, and where the caisson should rest."""
-    limit = picture.governing_of(expected) or "not known"
-    lines = [
-        "Stop, hold the suction, and ask the designer where",
-        f"  - the suction reaches the allowable one ({limit}),",
-        "  - the line is above the high or below the low estimate over half a meter,",
-        "  - suction rises and the caisson rests, or flow rises and suction does not,",
-        "  - the tilt reaches ______ degrees.",
-    ]
+    rest = None
     if expected.high[0] < expected.weight < expected.low[-1]:
-        shown = expected.run.shown
-        least, most = (
-            float(np.interp(expected.weight, line, expected.depth))
-            for line in (expected.high, expected.low)
-        )
-        lines.append(
-            f"By its weight, {shown.force(expected.weight)} in water, it should rest"
-            f" between {shown.place(least, 1)} and {shown.place(most, 1)}."
-        )
-    return [*lines, *filter(None, [words.of_end(expected)])]
+        ends = (expected.high, expected.low)
+        rest = [np.interp(expected.weight, line, expected.depth) for line in ends]
+    limit, shown = picture.governing_of(expected), expected.run.shown
+    what = shown, limit, expected.weight, rest, words.of_end(expected)
+    found = say_rows(words.SENTENCES, "criteria", *what)
+    return [f"  - {text}" if mark == "-" else text for mark, text in found]
 
 
 def chart(expected: Expected) -> Figure:
@@ -67,7 +57,7 @@ def chart(expected: Expected) -> Figure:
     title = "\n".join(textwrap.wrap(f"Log sheet: {expected.title}", 90))
     figure.text(0.1, 0.94, title, fontsize=10)
     figure.text(0.1, 0.91, SIGNED, fontsize=9)
-    note = [*criteria_of(expected), *words.of_source(expected)]
+    note = [*criteria_of(expected), words.of_source(expected)]
     lines = [
         line
         for text in note

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a log means, in sentences: where it leaves the band, what fits it, and how far
 the caisson goes."""
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,9 @@ import numpy as np
 from caisson.log.expected import Expected
 from caisson.log.forecast import Bins, Fit, Forecast
 from caisson.log.measured import Log, hangs, least_suction
+from caisson.template import say, say_rows
 
+SENTENCES = Path(__file__).with_name("words.jinja")
 FEWEST = 3  # steps in a row that are outside of the band
 
 
@@ -62,121 +65,73 @@ def outside(expected: Expected, bins: Bins) -> list[tuple[str, float, float]]:
 
 def of_band(expected: Expected, bins: Bins) -> str:
     """Return where a log leaves the band."""
-    place, last = expected.run.shown.place, float(bins.depth[-1])
-    parts = []
-    for name, begin, end in outside(expected, bins):
-        way = "on" if end == last else f"to {place(end, 1)}"
-        parts.append(f"from {place(begin, 1)} {way} {name} estimate")
-    if not parts:
-        return f"The log is within the band, down to {place(last)}."
-    return f"The log, down to {place(last)}, is {' and '.join(parts)}."
+    parts, last = outside(expected, bins), float(bins.depth[-1])
+    return say(SENTENCES, "band", expected.run.shown, parts, last)
 
 
 def of_allowable(expected: Expected, bins: Bins, weight: float) -> str:
     """Return where a measured suction is above the allowable one; weight: in kN."""
-    shown = expected.run.shown
     measured = expected.suction(bins.resistance, weight)
     limit = np.interp(bins.depth, expected.depth, expected.allowable)
-    begin = meets(bins.depth, measured, limit)
-    if begin is None:
+    if (begin := meets(bins.depth, measured, limit)) is None:
         return ""
     i = int(np.nanargmax(measured / limit))
-    most, least = (shown.words(side[i], "kPa", ".3g") for side in (measured, limit))
-    return (
-        f"The measured suction is above the allowable one from {shown.place(begin, 1)}"
-        f" on: {most} at {shown.place(float(bins.depth[i]), 1)}, where {least} is"
-        " allowed."
-    )
+    worst = bins.depth[i], measured[i], limit[i]
+    return say(SENTENCES, "allowable", expected.run.shown, begin, *worst)
 
 
-def of_fit(fit: Fit) -> str:
-    """Return what fits a log."""
-    value, low, high = fit.factor
-    share = fit.share[0]
-    side = "high" if share > 0 else "low"
-    return (
-        f"So far the resistance is {value:.2f} times the best estimate ({low:.2f} to"
-        f" {high:.2f}), {100 * abs(share):.0f} % of the way from best to {side}."
-    )
-
-
-def of_source(expected: Expected) -> list[str]:
+def of_source(expected: Expected) -> str:
     """Return what low and high are, and what of the band is extrapolated."""
-    beyond = expected.extrapolations()
-    more = f"Extrapolated, as the run has ended there: {beyond}." if beyond else ""
-    return [f"Low and high: {expected.source}.", *filter(None, [more])]
+    return say(SENTENCES, "source", expected.source, extrapolations(expected))
+
+
+def extrapolations(expected: Expected, upto: float = np.inf) -> str:
+    """Return which of low, best and high are extrapolated above a depth (m), and from
+    where on, in words; "" for none."""
+    parts = expected.extrapolations(upto)
+    return say(SENTENCES, "extrapolations", expected.run.shown, parts)
 
 
 def of_forecast(expected: Expected, forecast: Forecast) -> str:
-    """Return how far the caisson goes, and what of that rests on extrapolation."""
-    text = reach_of(expected, forecast)
-    last = outcome_of(expected, forecast).last
-    beyond = expected.extrapolations(np.inf if last is None else last)
-    return f"{text} This rests on extrapolation: {beyond}." if beyond else text
-
-
-def reach_of(expected: Expected, forecast: Forecast) -> str:
     """Return how far the caisson goes."""
-    shown, end = expected.run.shown, float(forecast.depth[-1])
-    first, middle, last = outcome_of(expected, forecast)
-    place = shown.place
-    factor, unit = shown.factor("kPa"), shown.name("kPa")
-    low, high = (f"{factor * side[-1]:.3g}" for side in (forecast.low, forecast.high))
-    needs = f"at {low} to {high} {unit}" if forecast.high[-1] > 0 else "by its weight"
-    if first is None:
-        limit = np.interp(forecast.depth, expected.depth, expected.allowable)
-        share = 100 * float(np.max(forecast.high / limit))
-        of_limit = f", at most {share:.0f} % of the allowable one" if share > 0 else ""
-        return f"Forecast: it reaches {place(end)} {needs}{of_limit}."
-    likely = f", most likely at {place(middle, 1)}" if middle is not None else ""
-    if last is None:
-        return (
-            f"Forecast: refusal is possible from {place(first, 1)} on{likely}; at best"
-            f" it reaches {place(end)} at {low} {unit}."
-        )
-    return f"Forecast: refusal between {place(first, 1)} and {place(last, 1)}{likely}."
+    met = outcome_of(expected, forecast)
+    limit = np.interp(forecast.depth, expected.depth, expected.allowable)
+    share = float(np.max(forecast.high / limit)) if met.first is None else 0.0
+    beyond = extrapolations(expected, np.inf if met.last is None else met.last)
+    shown = expected.run.shown
+    return say(SENTENCES, "forecast", shown, forecast, met, share, beyond)
 
 
 def of_end(expected: Expected) -> str:
     """Return that the runs end before the scene does, if so."""
-    place, end = expected.run.shown.place, float(expected.depth[-1])
-    if end >= expected.planned - 1e-3 * expected.planned:
+    end, planned = float(expected.depth[-1]), expected.planned
+    if end >= planned - 1e-3 * planned:
         return ""
-    return (
-        f"The runs end at {place(end)}, short of the planned {place(expected.planned)}:"
-        ' nothing is known below. `caisson run FILE.prm --set "Installation/End where'
-        ' infeasible=never"` goes on.'
-    )
+    return say(SENTENCES, "end", expected.run.shown, end, planned)
 
 
 def left_out(log: Log, expected: Expected, bins: Bins) -> list[str]:
     """Return what a fit does not use."""
-    place, found = expected.run.shown.place, list(log.remarks)
-    if n := int(hangs(log, expected).sum()):
-        found.append(
-            f"{n} rows with a suction of at most {least_suction(log, expected):.2g} kPa"
-            " are left out, as the weight may hang on a crane; a column weight_kN tells"
-        )
-    if bins.stops:
-        where = ", ".join(place(x, 1) for x in bins.stops)
-        found.append(f"steps with a stop are left out of the fit: at {where}")
-    return [f"{text[0].upper()}{text[1:]}." for text in found]
+    hanging = int(hangs(log, expected).sum())
+    what = hanging, least_suction(log, expected), bins.stops
+    found = say_rows(SENTENCES, "left_out", expected.run.shown, *what)
+    remarks = [f"{text[0].upper()}{text[1:]}." for text in log.remarks]
+    return remarks + [text for _, text in found]
 
 
 def of_gauges(log: Log) -> list[str]:
     """Return what flow, tilt and weight have been."""
-    found = []
-    if np.isfinite(log.flow).any():
-        found.append(f"Largest flow {np.nanmax(log.flow):.3g} m³/h.")
-    if np.isfinite(log.tilt).any():
-        i = int(np.nanargmax(np.abs(log.tilt)))
-        found.append(f"Largest tilt {log.tilt[i]:.2g}° at {log.depth[i]:.3g} m.")
-    if np.isfinite(log.weight).any():
-        last = log.weight[np.isfinite(log.weight)][-1]
-        found.append(
-            f"Weight in water at the end {last:.4g} kN, taken for the forecast."
-        )
-    return found
+    flow, weight = (x[np.isfinite(x)] for x in (log.flow, log.weight))
+    tilts = np.flatnonzero(np.isfinite(log.tilt))
+    i = max(tilts, key=lambda row: abs(log.tilt[row]), default=None)
+    found = say_rows(
+        SENTENCES,
+        "gauges",
+        flow.max() if len(flow) else None,
+        None if i is None else (log.tilt[i], log.depth[i]),
+        weight[-1] if len(weight) else None,
+    )
+    return [text for _, text in found]
 
 
 def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[str]:
@@ -185,7 +140,7 @@ def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[s
         of_forecast(expected, forecast),
         of_allowable(expected, bins, forecast.weight),
         of_band(expected, bins),
-        of_fit(fit),
+        say(SENTENCES, "fit", fit.factor, fit.share[0]),
         of_end(expected),
     )
     return list(filter(None, lines))

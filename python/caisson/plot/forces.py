@@ -13,8 +13,10 @@ from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
 from caisson.plot import band
 from caisson.verdict import theory
-from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
+from caisson.plot.small import CAPTIONS, fade, in_units, legend_below
+from caisson.plot.small import over_depth, with_note
 from caisson.results import Results, Table
+from caisson.template import say_rows
 
 COLORS = {
     "total": "black",
@@ -214,19 +216,15 @@ def draw_over_time(axes: Axes, history: Table) -> None:
 def caption(run: Results, site: theory.Site, answers: list[theory.Answer]) -> str:
     """Return what the lines mean, and which methods have none."""
     depth = run.history["penetration_m"]
-    window = window_of(depth)
-    whole, half = (run.shown.words(x, "m", ".3g") for x in (window, window / 2))
-    text = (
-        f"thin: raw, thick: mean over {whole}, which ends {half} before the ends of the"
-        " curve"
-    )
-    if has_suction(run):
-        return text
-    if answers[0].forces:
-        text += f"; {theory.assumptions_in_words(site.scene)}: dashed low, dotted high"
-    silent = theory.reasons_in_words(answers)
-    end = theory.about_cone(site, float(depth.max()))
-    lines = [x.replace(" = ", "\u00a0=\u00a0") for x in (text, silent, end) if x]
+    words = "", "", ""
+    if not has_suction(run):
+        words = (
+            theory.assumptions_in_words(site.scene) if answers[0].forces else "",
+            theory.reasons_in_words(answers),
+            theory.about_cone(site, float(depth.max())),
+        )
+    found = say_rows(CAPTIONS, "forces", run.shown, window_of(depth), *words)
+    lines = [text.replace(" = ", "\u00a0=\u00a0") for _, text in found]
     return "\n".join(textwrap.fill(line, 150) for line in lines)
 
 

@@ -13,8 +13,10 @@ from caisson.plot import band as between
 from caisson.verdict import limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar
-from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
+from caisson.plot.small import CAPTIONS, fade, in_units, legend_below
+from caisson.plot.small import over_depth, with_note
 from caisson.results import Results, Table
+from caisson.template import say_rows
 from caisson import curves, disk
 
 BLUE, GREEN, RED = (
@@ -239,32 +241,17 @@ def caption(answers: methods.Answers, site: theory.Site) -> str:
     """Return what the lines of the methods mean, or why there are none."""
     if not answers.suctions:
         return answers.words or f"no design methods: {answers.why_not}"
-    required, lines = list(methods.CASES), []
-    if has_line(*[from_rest_on(answers.suctions[name]) for name in required]):
-        words = theory.assumptions_in_words(site.scene)
-        ratio = theory.assumptions_of(site.scene).plug_permeability_ratio
-        lines.append(
-            f"{words}: dashed low, dotted high; permeability of the plug over that"
-            f" outside k_f\N{NO-BREAK SPACE}= {ratio:g}"
-        )
-    by_cone = [x for columns in methods.CONE_COLUMNS.values() for x in columns]
-    if has_line(*[answers.suctions[name] for name in by_cone]):
-        required += by_cone
-        lines.append(
-            "By cone: dashed low, dotted high; suction takes from all of them what it"
-            " takes from Senders & Randolph, ASSUMED for the others"
-        )
-    if not answers.rest:
-        deepest = answers.depth.max()
-        lines.append(
-            f"By Houlsby & Byrne (2005) the weight suffices down to {deepest:.3g} m."
-        )
-    elif ends_early(answers, required, site):
-        lines.append(
-            "A line ends where no suction suffices; the band then continues to the"
-            " critical suction of the same method."
-        )
-    return "\n".join(lines)
+    known, assumed = answers.suctions, theory.assumptions_of(site.scene)
+    required, cones = list(methods.CASES), methods.CONE_COLUMNS.values()
+    by_cone = [column for columns in cones for column in columns]
+    of_byrne = has_line(*[from_rest_on(known[name]) for name in required])
+    words = theory.assumptions_in_words(site.scene) if of_byrne else ""
+    with_cone = has_line(*[known[name] for name in by_cone])
+    required += by_cone if with_cone else []
+    deepest = None if answers.rest else answers.depth.max()
+    ends = ends_early(answers, required, site)
+    what = words, assumed.plug_permeability_ratio, with_cone, deepest, ends
+    return "\n".join(text for _, text in say_rows(CAPTIONS, "suction", *what))
 
 
 def draw(directory: Path, run: Results) -> list[Path]:

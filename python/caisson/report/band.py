@@ -7,26 +7,14 @@ from typing import Any
 import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of
-from caisson.design.reasons import text_of
-from caisson.verdict import installation
+from caisson.table import text_of
+from caisson.verdict import installation, outcome
 from caisson.verdict.installation import NOTHING, Installation, Rate
-from caisson.report.verdict import Verdict, verdict_of
+from caisson.report.verdict import REST, Card, Verdict, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
-from caisson.evaluation import SUCTION
 from caisson.results import Results
 from caisson.shown import Units
-from caisson.verdict.uncertainty import (
-    GROUND,
-    MESH,
-    NAMES,
-    PROGRAM,
-    Part,
-    Uncertainty,
-    at_end,
-)
-
-REST = "Self-weight penetration"  # the card
-IN_WORDS = {MESH: "mesh and steps", GROUND: "the ground", PROGRAM: "the model"}
+from caisson.verdict.uncertainty import NAMES, at_end
 
 
 def ends_of(run: Results) -> dict[str, Results]:
@@ -37,52 +25,30 @@ def ends_of(run: Results) -> dict[str, Results]:
 def outcome_of(member: Results, shown: Units, best: Verdict) -> str:
     """Return what has become of a run, in words that follow "with low resistance"; a
     reason only where it is not that of the best estimate."""
-    found = installation.installation_of(member, Rate())
-    if found is None or member.is_running:
-        return "not known: its run has not ended"
-    said = verdict_of(member)
-    if said.end is not None:
-        reason = f" ({said.reason})" if said.reason != best.reason else ""
-        return f"to {shown.place(said.end, 1)}{reason}"
-    place = shown.place(float(found.depth[-1]))
-    if member.summary.get("status", "finished") != "finished":
-        return f"not known: its run was stopped at {place}"
-    if not member.scene.get("submerged_weight_N"):
-        total = found.forces["total_force_N"]
-        total = found.with_water if len(found.with_water) else total
-        return f"{shown.force(float(total[-1]))} at {place}"
-    if not found.has_suction:
-        return f"to {place} by weight alone"
-    most = shown.words(float(found.required.max()), "kPa", ".3g")
-    return f"to {place}, suction up to {most}"
+    found = None if member.is_running else outcome.whole_way(member)
+    return say("outcome", shown, member, found, verdict_of(member), best.reason)
 
 
 def sentence_of(run: Results) -> str:
     """Return what low and high resistance come to; nothing without a band."""
     if not (best := verdict_of(run)).text:
         return ""
-    words = [
-        f"with {estimate} resistance {outcome_of(member, run.shown, best)}"
-        for estimate, member in ends_of(run).items()
-    ]
-    text = "; ".join(words)
-    return f"{text[0].upper()}{text[1:]}." if text else ""
+    ends = ends_of(run).items()
+    return say("of_band", {e: outcome_of(x, run.shown, best) for e, x in ends})
 
 
 def verdict_with(run: Results) -> Verdict:
     """Return the verdict on a run with that on low and high resistance."""
-    best, ends = verdict_of(run), sentence_of(run)
-    if not ends:
-        return best
-    return best._replace(text=f"{best.text} {ends}")
+    best = verdict_of(run)
+    return best._replace(text=f"{best.text} {sentence_of(run)}".rstrip())
 
 
-def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+def cards_of(run: Results, cards: list[Card]) -> list[Card]:
     """Return the cards of a run, where the penetration by weight has its range in place
     of the weight, which the verdict names."""
     ends = []
     for estimate, member in ends_of(run).items():
-        found = installation.installation_of(member, Rate())
+        found = outcome.whole_way(member)
         own = [] if found is None else own_cards_of(member, found, Rate())
         ends += [f"{estimate} resistance: {c[1]}" for c in own if c[0] == REST]
     if not ends:
@@ -90,55 +56,19 @@ def cards_of(run: Results, cards: list[tuple[str, ...]]) -> list[tuple[str, ...]
     return [(*c[:2], "; ".join(ends)) if c[0] == REST else c for c in cards]
 
 
-def part_in_words(part: Part, found: Uncertainty, shown: Units) -> str:
-    """Return by how much a part changes the value at the last depth: a force in %."""
-    below, above = part.below[-1], part.above[-1]
-    if found.column == SUCTION:
-        factor, unit = shown.factor("kPa") / 1e3, shown.name("kPa")
-    else:
-        factor, unit = 100 / found.values[-1], "%"
-    low, high = (text_of(float(f"{factor * x:.2g}")) for x in (below, above))
-    change = f"±{high} {unit}" if low == high else f"−{low} and +{high} {unit}"
-    source = part.source
-    if found.column == SUCTION and part.share is not None:
-        source = f"{100 * part.share:.0f} % of the force; {source}"
-    return f"{IN_WORDS[part.name]} {change} ({source})"
-
-
-def uncertainty_in_words(found: Uncertainty, shown: Units) -> str:
-    """Return in two sentences how far the value at the last depth may be wrong; nothing
-    of a value of 0."""
-    name, unit = NAMES[found.column]
-    value, low, high = (x[-1] / 1e3 for x in (found.values, found.low, found.high))
-    if value <= NOTHING:
-        return ""
-
-    def text(x: float) -> str:
-        return shown.force(x) if unit == "N" else shown.words(x, "kPa", ".3g")
-
-    ends = [text(low), text(high)]
-    if len({end.rpartition(" ")[2] for end in ends}) == 1:
-        ends[0] = ends[0].rpartition(" ")[0]
-    parts = ", ".join(part_in_words(part, found, shown) for part in found.parts)
-    missing = " and ".join(IN_WORDS[name] for name in found.missing)
-    without = f" Not in it: {missing}." if missing else ""
-    return (
-        f"At {shown.place(found.depth[-1])} the {name} is {text(value)}, and"
-        f" {' to '.join(ends)} with its uncertainty: {parts}; the root of the sum of"
-        f" squares.{without}"
-    )
-
-
 def uncertainty_of(run: Results) -> str:
     """Return how far the required suction of a run, or its force where there is none,
-    may be wrong where the ways of all estimates end."""
-    found = [uncertainty_in_words(x, run.shown) for x in at_end(band_of(run))]
-    return next(filter(None, reversed(found)), "")
+    may be wrong where the ways of all estimates end; nothing of a value of 0."""
+    for found in reversed(at_end(band_of(run))):
+        if found.values[-1] / 1e3 > NOTHING:
+            name, unit = NAMES[found.column]
+            return say("uncertainty", found, run.shown, name, unit == "N")
+    return ""
 
 
 def required_at(member: Results, depth: float, shown: Units) -> str:
     """Return the required suction of a run at a depth (m), in words."""
-    found, end = installation.installation_of(member, Rate()), verdict_of(member).end
+    found, end = outcome.whole_way(member), verdict_of(member).end
     if found is None or depth > (end or float(found.depth[-1]) + 1e-3 * depth):
         return "not reached" if end is None else "not feasible"
     if depth <= member.history["penetration_m"][0]:

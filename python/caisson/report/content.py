@@ -2,6 +2,7 @@
 """Curves of a report, and what it says of the numbers in plain words."""
 import math
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,13 +17,15 @@ from caisson.plot.band import LABEL, range_of
 from caisson.verdict.limits import BOILING, LID, LIMITS
 from caisson.plot.suction import ALLOWABLE, CRITICAL, WIDE_COLOR, color_of
 from caisson.results import Results, Table
-from caisson.table import by_rows
+from caisson.table import NOTHING, in_units
+from caisson.template import say, say_rows
 from caisson.shown import Units, units_for
-from caisson.verdict.installation import NOTHING, Installation, texts_of
+from caisson.verdict.installation import Installation
 from caisson.verdict.uncertainty import over_depth
 from caisson.evaluation import is_pull
 from caisson.report.pull import PULL, pull_parts
 
+SENTENCES = Path(__file__).with_name("page.jinja")
 GRAY = "#aaaaaa"  # what is deeper than suction reaches
 SHOWN = ("tip", "total")  # parts of the methods in the interactive picture
 LIGHT = {  # of Houlsby & Byrne
@@ -213,20 +216,13 @@ def axis_end(shown: list[Curve]) -> float:
 def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
     """Return which limits are beyond the axis of the curves, or are none, and the depth
     of the lid where it is below a bottom (m), in sentences."""
-    words, end = [], axis_end(shown)
-    factor, unit = found.shown.factor("kPa"), found.shown.name("kPa")
+    beyond, end = [], axis_end(shown)
     for name, values in found.limits.items():
-        known = values[np.isfinite(values)]
-        if name != LID and len(known) and known.min() > end:
-            limits = (factor * known.min(), factor * known.max())
-            ends = dict.fromkeys(f"{v:.0f}" for v in limits)
-            words.append(f"{found.named(name)} at {' to '.join(ends)} {unit}")
-    if found.lid is not None and found.lid > bottom:
-        words.append(f"{found.named(LID)} at about {found.shown.place(found.lid, 1)}")
-    beyond = f"Beyond the chart: {'; '.join(words)}. " if words else ""
-    if found.absent:
-        beyond += f"No limit of {'; of '.join(found.absent)}."
-    return beyond.strip()
+        known = found.shown.factor("kPa") * values[np.isfinite(values)]
+        if name != LID and len(known) and known.min() > found.shown.factor("kPa") * end:
+            beyond.append((found.named(name), (known.min(), known.max())))
+    lid = found.lid if found.lid is not None and found.lid > bottom else None
+    return say(SENTENCES, "beyond", found, beyond, lid)
 
 
 def suction_curves(
@@ -256,7 +252,7 @@ def with_points(found: list[Curve]) -> list[Curve]:
     ]
 
 
-def in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
+def figure_in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:
     """Return an interactive figure in the units of a run; that of its depths is its
     key depth, and a rise is in mm anyway."""
     is_pull = bool(figure.get("upward"))
@@ -302,7 +298,7 @@ def figures_of(
     if curves.penetration(run.history) is None:
         return []
     if is_pull(run):
-        return [in_units(pull_figure(run), run.shown)]
+        return [figure_in_units(pull_figure(run), run.shown)]
     figures = []
     if found is not None and found.has_suction:
         suctions = with_points(suction_curves(run, found, end))
@@ -326,7 +322,7 @@ def figures_of(
         }
     )
     place = None if end is None else run.shown.factor("m") * end
-    return [in_units(figure, run.shown) | {"end": place} for figure in figures]
+    return [figure_in_units(figure, run.shown) | {"end": place} for figure in figures]
 
 
 def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
@@ -363,9 +359,7 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     stress = 1e3 * max(float(np.abs(x).max()) for x in list(columns.values())[1:])
     of_length = run.shown.smaller & {"m"}
     shown = Units(units_for(np.inf, stress, np.inf).smaller | of_length)
-    return by_rows(
-        {shown.named(h): texts_of(shown.factor_of(h) * x) for h, x in columns.items()}
-    )
+    return in_units(columns, shown)
 
 
 def averaged(run: Results) -> str:
@@ -373,50 +367,34 @@ def averaged(run: Results) -> str:
     depth = run.history.get("penetration_m", np.zeros(1))
     way = depth[curves.main_way(depth)]
     window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
-    return f"Averaged over {run.shown.words(window, 'm', '.2g')} of penetration"
+    return say(SENTENCES, "averaged", run.shown, window)
+
+
+def scatter_of(history: Table) -> float:
+    """Return the scatter of the force about its mean, nan where it is not known."""
+    depth = curves.penetration(history)
+    if depth is None or "total_force_N" not in history:
+        return math.nan
+    if (depth >= curves.FROM).sum() <= 10:
+        return math.nan
+    found = curves.roughness(depth, history["total_force_N"])
+    return found if math.isfinite(found) else math.nan
 
 
 def remarks_on_numbers(run: Results) -> list[str]:
     """Return what energy, points and steps say of the run, in plain words."""
     if run.is_running:
         return []
-    summary, history, found = run.summary, run.history, []
-    residual = (summary.get("energies") or {}).get("energy_residual")
-    if residual is not None:
-        share = 100 * abs(residual)
-        found.append(
-            f"Energy error: {share:.2g} % of the work, of the steps in time alone; the"
-            " mesh has an error of its own."
-        )
-    if "plug_balance_error" in history:
-        share = 100 * abs(history["plug_balance_error"][-1])
-        if share > 5:
-            found.append(
-                f"Heave and room below the lid are not reliable: {share:.2g} % of the"
-                " volume that the plug gained is unaccounted for."
-            )
-    if "total_force_N" in history and curves.penetration(history) is not None:
-        depth = history["penetration_m"]
-        if (depth >= curves.FROM).sum() > 10:
-            rough = 100 * curves.roughness(depth, history["total_force_N"])
-            if math.isfinite(rough):
-                found.append(
-                    f"The curve scatters by {rough:.2g} % about its mean over"
-                    f" {curves.FORCE_WINDOW} m."
-                )
-    if kinetic := run_review.kinetic_share_of(run):
-        slow = "slow enough" if kinetic.is_small else "too fast, see the warnings"
-        found.append(
-            f"Kinetic energy is at most {run_review.percent(kinetic.share)} of the"
-            f" work, once the waves of the start have decayed: the run is {slow}."
-        )
-    inside = summary.get("max_points_in_body", 0)
-    found.append(
-        "No material point was inside the body."
-        if not inside
-        else f"{inside} material points were inside the body at once."
+    residual = (run.summary.get("energies") or {}).get("energy_residual")
+    numbers = (
+        None if residual is None else abs(residual),
+        abs(run.history.get("plug_balance_error", np.zeros(1))[-1]),
+        scatter_of(run.history),
+        curves.FORCE_WINDOW,
+        run_review.kinetic_share_of(run),
+        run.summary.get("max_points_in_body", 0),
     )
-    return found
+    return [words for _, words in say_rows(SENTENCES, "remarks", *numbers)]
 
 
 def csv_of(history: Table) -> str:

@@ -1,58 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The layers of the soil, one row for each, whose numbers may change with depth."""
 import math
+import tomllib
 from collections.abc import Iterable, Mapping
 from itertools import groupby
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson.design.reasons import text_of
+from caisson.table import text_of
 from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
 from caisson.evaluation import is_sealed
 from caisson.report.scene import readable, scale_of
 from caisson.results import Results
 
-# number of a layer in run.json: its name, its unit, and the entry that sets it
-OF_LAYER = {
-    "submerged_unit_weight_N_m3": ("Submerged unit weight", "N/m3", ""),
-    "K0": ("K0", "", "K0"),
-    "porosity": ("Porosity", "", "Porosity"),
-    "solid_density_kg_m3": ("Solid density", "kg/m3", "Solid density"),
-    "relative_density": ("Relative density", "", "Relative density"),
-    "permeability_m_s": ("Permeability", "m/s", "Permeability"),
-    "permeability_ratio": (
-        "Horizontal over vertical permeability",
-        "",
-        "Permeability ratio",
-    ),
-    "wall_friction_angle_deg": (
-        "Friction angle of the walls",
-        "degrees",
-        "Friction angle of the walls",
-    ),
-    "wall_adhesion_Pa": ("Adhesion of the walls", "Pa", "Adhesion factor of the walls"),
-}
+NAMES = tomllib.loads(Path(__file__).with_name("layers.toml").read_text("utf-8"))
 FIRST = ("submerged_unit_weight_N_m3", "K0", "relative_density")
-# older files have no list of the numbers of a law
-OF_LAW = {
-    "friction_angle_deg": ("Friction angle", "degrees"),
-    "cohesion_Pa": ("Cohesion", "Pa"),
-    "youngs_modulus_Pa": ("Youngs modulus", "Pa"),
-}
-ENTRY_NAMES = {
-    "Smallest stress of strength": "Bolton: minimum mean stress",
-    "Degrees per dilatancy index": "Bolton: degrees per I_R",
-}
 STRENGTH = "Cohesion", "Pa"
-COLUMNS = {  # of the table with a row for each layer
-    "unit weight in water": ("Submerged unit weight", "N/m3"),
-    "K0": ("K0", ""),
-    "Young's modulus": ("Youngs modulus", "Pa"),
-    "adhesion of the walls": ("Adhesion of the walls", "Pa"),
-    "friction angle of the walls": ("Friction angle of the walls", "degrees"),
-    "permeability": ("Permeability", "m/s"),
-}
 LINEAR = 2e-3  # of a number: how far a straight line may be from it
 
 Numbers = dict[tuple[str, str], tuple[float | None, str]]
@@ -113,17 +78,17 @@ def numbers_of(layer: Mapping[str, Any]) -> Numbers:
 
     def add(keys: Iterable[str]) -> None:
         for key in (key for key in keys if key in layer):
-            (name, unit, entry), value = OF_LAYER[key], layer[key]
+            (name, unit, entry), value = NAMES["layer"][key], layer[key]
             found[name, unit] = (None if value is None else float(value), entry)
 
     add(FIRST)
     if "law_entries" not in layer:
-        for key, (name, unit) in OF_LAW.items():
+        for key, (name, unit) in NAMES["law"].items():
             if layer.get(key) is not None:
                 found[name, unit] = (float(layer[key]), "")
     for item in layer.get("law_entries", []):
         found[item["entry"], item["unit"]] = (item["value"], item["entry"])
-    add(key for key in OF_LAYER if key not in FIRST)
+    add(key for key in NAMES["layer"] if key not in FIRST)
     return found
 
 
@@ -255,7 +220,7 @@ def cell_of(run: Results, layer: Layer, name: str, unit: str) -> tuple[str, bool
 def soil_table(run: Results) -> dict[str, Any]:
     """Return the table with a row for each layer: heads, and rows of (text, whether
     assumed)."""
-    shown, rows = run.shown, []
+    shown, rows, columns = run.shown, [], NAMES["columns"]
     of_strength = ("Cohesion", "Friction angle", "Relative density")
     for layer in layers_of(run.scene):
         cells = [
@@ -264,8 +229,8 @@ def soil_table(run: Results) -> dict[str, Any]:
             (kind_of(run, layer), False),
             (strength_of(run, layer), not is_given(run, layer, *of_strength)),
         ]
-        rows.append(cells + [cell_of(run, layer, *key) for key in COLUMNS.values()])
-    heads = ["layer", shown.named("from (m)"), "soil", "strength", *COLUMNS]
+        rows.append(cells + [cell_of(run, layer, *key) for key in columns.values()])
+    heads = ["layer", shown.named("from (m)"), "soil", "strength", *columns]
     used = [i for i in range(len(heads)) if any(row[i][0] for row in rows)]
     return {
         "heads": [heads[i] for i in used],
@@ -280,6 +245,6 @@ def layers_table(run: Results) -> dict[str, Any]:
     laws = [(str(layer.parts[0].get("law", "")), False) for layer in layers]
     rows = [[("law", False), *laws]]
     for key in {key: None for x in layers for key in numbers_of(x.parts[0])}:
-        name = readable(ENTRY_NAMES.get(key[0], key[0]))
+        name = readable(NAMES["entries"].get(key[0], key[0]))
         rows.append([(name, False), *(cell_of(run, layer, *key) for layer in layers)])
     return {"heads": ["layer", *(str(x.number) for x in layers)], "rows": rows}

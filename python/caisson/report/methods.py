@@ -2,6 +2,7 @@
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,11 +15,13 @@ from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
 from caisson.design.method import Forces
-from caisson.table import by_rows
+from caisson.table import by_rows, text_of
+from caisson.template import say
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
 from caisson.verdict.installation import needs_suction
 
+SENTENCES = Path(__file__).with_name("methods.jinja")
 RATIO = "computed / "  # before the name of a method
 # the lower case of a method: the upper one
 LOWER = {"low": "high", "most probable": "highest"}
@@ -89,7 +92,7 @@ def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str
 
     def text(head: str, cell: Any) -> str:
         is_text = isinstance(cell, str)
-        return cell if is_text else reasons.text_of(factor(head) * float(cell))
+        return cell if is_text else text_of(factor(head) * float(cell))
 
     texts = {shown.named(h): [text(h, x) for x in c] for h, c in columns.items()}
     return {"title": shown.named(title), **by_rows(texts)}
@@ -162,10 +165,7 @@ def or_piping(values: np.ndarray) -> list[str]:
     suction exceeds its critical one."""
     known = np.flatnonzero(np.isfinite(values))
     last = int(known[-1]) if len(known) else -1
-    return [
-        reasons.text_of(float(v)) if i <= last else NO_ANSWER
-        for i, v in enumerate(values)
-    ]
+    return [text_of(float(v)) if i <= last else NO_ANSWER for i, v in enumerate(values)]
 
 
 def suction_tables(
@@ -360,9 +360,10 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
         title = "Force of jacking, without suction (kN)"
     forces = [answer.total for answer in answers if answer.forces]
     tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
-    meaning = ""
+    leaves = ""
     if with_suction:
-        columns, meaning = relief.table_of(run, at)
+        columns, rest = relief.table_of(run, at)
+        leaves = say(SENTENCES, "suction_leaves", run.shown, rest) if columns else ""
         title = "What suction leaves of the forces"
         left = [table(title, columns, run.shown)] if columns else []
         tables = [*suction_tables(run, at, site, answers), *left, *tables]
@@ -370,9 +371,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     end = site.cone.depth[-1] if site.cone else np.inf
     h = float(max((z for z in at if z <= end), default=at[-1]))
     why = [why_of(run, at), *others_of(run, h, theory.answers_of(site, np.array([h])))]
-    notes = [theory.about_cone(site, float(at.max()))]
-    if meaning:
-        notes.append(f"What suction leaves: {meaning[0].lower()}{meaning[1:]}")
+    notes = [theory.about_cone(site, float(at.max())), leaves]
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")

@@ -2,6 +2,7 @@
 """A caisson that is pulled: how much it bears, what bears it, and the pull over the
 rise."""
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,10 @@ from caisson import curves
 from caisson.evaluation import capacity_in_words, is_pull, is_sealed
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
+from caisson.template import say
 from caisson.verdict.outcome import results_of
 
+SENTENCES = Path(__file__).with_name("verdict.jinja")
 PULL, WATER = "pull", "water beneath lid and tip"
 
 
@@ -36,20 +39,11 @@ def cards_of(run: Results) -> list[tuple[str, ...]]:
 
 def sentence_of(run: Results) -> str:
     """Return the largest pull and what fails in a sentence; nothing without a pull."""
-    most, shown = largest_pull(run), run.shown
-    if not most:
+    if not (most := largest_pull(run)):
         return ""
     how = most.get("mechanism") or capacity_in_words(most)
-    force = shown.force(most["pull_N"] / 1e3)
-    place = shown.place(most["penetration_m"] + most["rise_m"])
     weight = run.scene.get("submerged_weight_N")
-    adds = "No weight is given, and none is in it."
-    if weight:
-        adds = f"The submerged weight of {shown.force(float(weight) / 1e3)} adds to it."
-    return (
-        f"Pulled from {place}: {force} after a rise of {1e3 * most['rise_m']:.3g} mm"
-        f" ({how}). {adds} This is no design pull-out capacity."
-    )
+    return say(SENTENCES, "pulled", run.shown, most, how, weight)
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:

@@ -6,7 +6,7 @@ Senders & Randolph leave 1 - s / s_cr of tip and inner friction, and all of the 
 friction. A run under suction does not know what it would bear at this depth without.
 Alone it can only compare its tip with what the tip bore under the weight, before there
 was suction, both over the vertical stress of undisturbed ground: this ratio rises and
-falls with depth without any suction, too (ONE_RUN).
+falls with depth without any suction, too.
 """
 from pathlib import Path
 from typing import Any
@@ -23,21 +23,7 @@ from caisson.design.suction_installation import mean_unit_weight
 NAME = "jacked.csv"  # of the jacked run in the directory of a run
 SAME = ("diameter_m", "wall_thickness_m", "layers")  # in run.json of both
 PARTS = dict(zip(design.FORCES[:3], ("tip", "inner friction", "outer friction")))
-ONE_RUN = (
-    "One run does not know what it would bear at this depth without suction. The tip is"
-    " compared with what it bore at {rest}, before there was suction, both over"
-    " the vertical stress at rest. This ratio changes with depth in jacked runs, too:"
-    " in two scenes the estimate was 0.8 to 2 times the true factor. Friction allows"
-    " none."
-    " For the factors of all three, jack the same scene (--set Water/Level=drained,"
-    " another --output-directory), and name it: caisson report --jacked DIRECTORY."
-)
 SHARE = "s / s_cr (Senders & Randolph)"
-TWO_RUNS = "Over the forces of the jacked run at the same depth."
-LINEAR = (
-    " Senders & Randolph (2009) leave 1 - s/s_cr of tip and inner friction, and all of"
-    " the outer friction."
-)
 
 
 def adopt(jacked: Path, directory: Path) -> None:
@@ -57,22 +43,21 @@ def adopt(jacked: Path, directory: Path) -> None:
     disk.keep(directory / NAME, disk.read_bytes(jacked / "history.csv"))
 
 
-def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:
+def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], float | None]:
     """Return the columns of the table at depths [n] (m) where there is suction, and
-    what they mean; nothing without suction, or where no critical one is known."""
+    the depth (m) at which the caisson rested, None beside a jacked run; no columns
+    without suction, or where no critical one is known."""
     history, path = run.history, run.directory / NAME
     found = suction_methods.answers_of(theory.site_of(run), at).suctions
     rest = rest_of_run(history)
     if not found or not set(design.FORCES) <= set(history):
-        return {}, ""
+        return {}, None
     suction = design.suction_at(history, at)
     rows = (suction > 0) & (at > (rest or 0))
     if not rows.any():
-        return {}, ""
-    at, share = (
-        at[rows],
-        (suction / found[suction_methods.CRITICAL_SENDERS_RANDOLPH])[rows],
-    )
+        return {}, None
+    critical = found[suction_methods.CRITICAL_SENDERS_RANDOLPH]
+    at, share = at[rows], (suction / critical)[rows]
     mine = design.forces_at(history, at)
     columns = {"depth (m)": at, SHARE: share, f"1 - {SHARE}": 1 - share}
     if path.is_file():
@@ -81,13 +66,13 @@ def table_of(run: Results, at: np.ndarray) -> tuple[dict[str, Any], str]:
         for column, name in PARTS.items():
             ratio = mine[column] / np.maximum(twin[column], 1.0)
             columns[f"{name} / jacked"] = np.where(at <= deepest, ratio, np.nan)
-        return columns, TWO_RUNS + LINEAR
+        return columns, None
     if rest is None:
-        return {}, ""
+        return {}, None
     both = np.array([rest, *at])
     byrne = theory.houlsby_byrne_of(theory.site_of(run), float(both.max()))
     ground, _ = byrne.by_name[UNDISTURBED]
     stress = np.array([h * mean_unit_weight(ground, h) for h in map(float, both)])
     ratio = design.forces_at(history, both)["tip_force_N"] / stress
     columns["tip (estimate from one run)"] = ratio[1:] / ratio[0]
-    return columns, ONE_RUN.format(rest=run.shown.depth(rest)) + LINEAR
+    return columns, rest

@@ -10,6 +10,7 @@ skirt. Where no size suffices, the depth stands there that one of TRIED would re
 """
 from collections.abc import Iterable
 from math import inf, pi
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from caisson.verdict import limits, suction_methods, theory
 from caisson.verdict.installation import NOTHING, Installation
 from caisson.report.scene import end_of
 from caisson.results import Results
+from caisson.template import say, say_rows
 
 OF_WAY = 0.25  # of the feasible way, over which a trend is taken, and at least this:
 LEAST_WAY, LEAST_ROWS = 1.0, 3  # m, and rows
@@ -28,7 +30,7 @@ STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
-DIGITS = 2
+SENTENCES = Path(__file__).with_name("remedies.jinja")
 NOT_KNOWN = "not known: another layer begins above the planned depth"
 
 
@@ -199,71 +201,49 @@ def diameter_of(planned: Planned) -> float | None:
     return nearest(planned, "diameter", wider)
 
 
-def short(value: float) -> float:
-    """Return a number with few digits."""
-    return float(f"{value:.{DIGITS}g}")
+class Size(NamedTuple):
+    """Another diameter or wall (m): the present one, the one that suffices, the range
+    that was searched and, where none suffices, one of TRIED with the depth (m) that it
+    reaches, if that is deeper."""
+
+    old: float
+    enough: float | None
+    least: float
+    most: float
+    tried: float
+    reach: float | None
 
 
-def pump_row(planned: Planned) -> str:
-    """Return what a pump does."""
-    shown, others = planned.found.shown, planned.allows(planned.sizes)
+def size_of(planned: Planned, name: str) -> Size:
+    """Return what another diameter or wall does."""
+    is_wide, old = name == "diameter", planned.sizes._asdict()[name]
+    unit = 1.0 if is_wide else 1e-3
+    tried, depth = unit * float(f"{TRIED[is_wide] * old / unit:.3g}"), None
+    enough = diameter_of(planned) if is_wide else wall_of(planned)
+    if enough is None:
+        depth = reach(planned, name, tried)
+        depth = depth if depth > planned.found.depth[-1] + 0.05 else None
+    most = (WIDEST if is_wide else THICKEST) * old
+    return Size(old, enough, THINNEST * old, most, tried, depth)
+
+
+class Pump(NamedTuple):
+    """The suction that is needed, the limit (kPa) of the present pump or, if that
+    stops any pump, of another limit, and the name of this."""
+
+    needed: float
+    limit: float
+    stopped_by: str = ""
+
+
+def pump_of(planned: Planned) -> Pump | None:
+    """Return what another pump does; None where there is nothing to say of it."""
+    others = planned.allows(planned.sizes)
     pump = others.pop(limits.PUMP, inf)
     name = min(others, key=lambda x: others[x], default="")
     if planned.required < others.get(name, inf):
-        needed = f"{shown.words(short(planned.required), 'kPa', 'g')}"
-        instead = shown.words(pump, "kPa", ".3g")
-        return f"a pump for {needed} instead of {instead}" if pump < inf else ""
-    limit = shown.words(others[name], "kPa", ".3g")
-    return f"no pump alone: {planned.found.named(name)} allows {limit}"
-
-
-def size_row(planned: Planned, name: str, found: float | None, why: str) -> list[str]:
-    """Return the row of a diameter or a wall (m); where none suffices, why, and how
-    deep one of TRIED goes."""
-    old = planned.sizes._asdict()[name]
-    factor, unit = (1e3, "mm") if name == "wall" else (1.0, "m")
-    if found is not None:
-        words = f"{factor * found:.4g} {unit} instead of {factor * old:g} {unit}"
-        return [name, words]
-    share = TRIED[name == "diameter"]
-    tried = float(f"{share * factor * old:.3g}")
-    depth = reach(planned, name, tried / factor)
-    gained = depth > planned.found.depth[-1] + 0.05
-    place = planned.found.shown.place(depth)
-    text = f"{tried:g} {unit} would reach {place}" if gained else ""
-    return [name, "; ".join(filter(None, [why, text]))]
-
-
-def cycles_row(depth: float) -> str:
-    """Return the runs that tell what cycles of force do; depth: where suction ends."""
-    return (
-        f"no arithmetic: end a run at {0.98 * depth:.3g} m, and go on from it"
-        " (Installation/Directory) with Motion = dropped, Suction control = table,"
-        " Inertia tolerance = none and a Force table"
-    )
-
-
-def sizes_rows(planned: Planned) -> list[list[str]]:
-    """Return the rows of weight, wall, diameter and pump."""
-    shown, sizes = planned.found.shown, planned.sizes
-    found = weight_of(planned)
-    weight = "none: the wall buckles under it"
-    if found is not None:
-        now = shown.force(sizes.weight)
-        weight = f"about {shown.force(short(found))} in all instead of {now}"
-    ends = [f"{1e3 * share * sizes.wall:.0f}" for share in (THINNEST, THICKEST)]
-    none = f"none up to {WIDEST * sizes.diameter:g} m suffices"
-    rows = [
-        ["weight in water", weight],
-        size_row(
-            planned,
-            "wall",
-            wall_of(planned),
-            f"none from {' to '.join(ends)} mm suffices",
-        ),
-        size_row(planned, "diameter", diameter_of(planned), none),
-    ]
-    return rows + ([["pump", words]] if (words := pump_row(planned)) else [])
+        return Pump(planned.required, pump) if pump < inf else None
+    return Pump(planned.required, others[name], planned.found.named(name))
 
 
 def changes_between(run: Results, top: float, bottom: float) -> bool:
@@ -272,17 +252,15 @@ def changes_between(run: Results, top: float, bottom: float) -> bool:
     return any(top < depth < bottom for depth in tops)
 
 
-def skirt_row(planned: Planned) -> list[list[str]]:
-    """Return the skirt that leaves room for the heave of the plug, if it is longer."""
+def skirt_of(planned: Planned) -> tuple[float, float] | None:
+    """Return the skirt that leaves room for the heave of the plug, and the present one
+    (m), if it is longer."""
     found, length = planned.found, planned.run.scene.get("skirt_length_m")
     if not length or not len(found.room):
-        return []
+        return None
     rise = found.factors.get(limits.LID, 1.0) * planned.line(found.heave)
     needed = planned.depth + max(rise, 0.0)
-    if not needed > float(length):
-        return []
-    new, old = (found.shown.place(x) for x in (needed, float(length)))
-    return [["skirt", f"longer than {new} instead of {old}: the plug meets the lid"]]
+    return (needed, float(length)) if needed > float(length) else None
 
 
 def planned_of(run: Results, found: Installation, target: float) -> Planned | str:
@@ -301,33 +279,29 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
 
 def sentence_of(run: Results, found: Installation, target: float) -> str:
     """Return which weight, or pump, would be needed at a depth (m)."""
-    planned, place = planned_of(run, found, target), found.shown.place(target)
+    planned = planned_of(run, found, target)
     if planned == NOT_KNOWN:
-        return f" More weight helps; how much in the soil down to {place} is not known."
+        return say(SENTENCES, "not_known", found.shown, target)
     if isinstance(planned, str) or (weight := weight_of(planned)) is None:
         return ""
-    words = f"{found.shown.force(short(weight))} of weight in all"
-    if (pump := pump_row(planned)).startswith("a pump"):
-        words += f", or {pump.partition(' instead')[0]},"
-    return f" About {words} would be needed at {place}."
+    pump = pump_of(planned)
+    helps = pump if pump and not pump.stopped_by else None
+    return say(SENTENCES, "needed", found.shown, target, weight, helps)
 
 
 def table_of(run: Results, found: Installation, end: float | None) -> dict[str, Any]:
     """Return heads and rows of remedies for a caisson that goes in to an end (m) only;
     found: down to there. Empty where it goes in, or the planned depth is not known."""
-    target = end_of(run)
+    target, shown = end_of(run), found.shown
     if end is None or target is None or target <= end:
         return {}
-    shown = found.shown
-    place = shown.place(end, 1)
-    stop = f"at {place}"
-    if len(found.room):
-        stop += f": a skirt of {shown.place(end + float(found.heave[-1]) + 5e-2, 1)}"
     planned = planned_of(run, found, target)
     if isinstance(planned, str):
-        rows = [["weight, wall, diameter, pump", planned]]
+        amounts = [["weight, wall, diameter, pump", planned]]
     else:
-        rows = sizes_rows(planned) + skirt_row(planned)
-    rows += [["stop earlier", stop], ["cycles of force", cycles_row(end)]]
+        sizes = size_of(planned, "wall"), size_of(planned, "diameter")
+        more = *sizes, pump_of(planned), skirt_of(planned)
+        known = shown, planned.sizes, weight_of(planned), *more
+        amounts = say_rows(SENTENCES, "amounts", *known)
     heads = ["one of these", f"to reach {shown.place(target)}, by arithmetic"]
-    return {"heads": heads, "rows": rows}
+    return {"heads": heads, "rows": amounts + say_rows(SENTENCES, "others", found, end)}

@@ -3,11 +3,13 @@
 included, and which of them the scene marks ASSUMED."""
 import math
 import re
+from pathlib import Path
 from typing import NamedTuple
 
 from caisson.results import Results
-from caisson.design.reasons import text_of
+from caisson.table import text_of
 from caisson.evaluation import is_sealed
+from caisson.template import say_rows
 from caisson.verdict.installation import plug_area
 
 WALLS = {"wall_friction_angle_deg", "wall_adhesion_Pa"}  # of a layer
@@ -49,14 +51,14 @@ def with_unit(value: float, unit: str) -> str:
     return f"{value / factor:.4g}{space}{readable(name)}".rstrip()
 
 
-def entry_with_unit(value: str, unit: str) -> str:
+def in_units(value: str | float, unit: str) -> str:
     """Return the value of an entry with its unit, a word as it is."""
     try:
         number = float(value)
     except ValueError:
-        is_list = re.fullmatch(r"[-+\d.eE, ]+", value) and unit
-        return f"{value} {readable(unit)}" if is_list else value
-    return with_unit(number, unit) if unit else value
+        is_list = re.fullmatch(r"[-+\d.eE, ]+", str(value)) and unit
+        return f"{value} {readable(unit)}" if is_list else str(value)
+    return with_unit(number, unit) if unit else str(value)
 
 
 def entries_of(run: Results) -> dict[str, str]:
@@ -65,7 +67,7 @@ def entries_of(run: Results) -> dict[str, str]:
     summary = run.summary
     units = summary.get("units", {})
     return {
-        entry: entry_with_unit(value, units.get(entry, ""))
+        entry: in_units(value, units.get(entry, ""))
         for entry, value in summary.get("entries", {}).items()
     }
 
@@ -107,78 +109,12 @@ def caisson_of(run: Results) -> list[Item]:
     scene = run.scene
     if not scene.get("diameter_m") or not scene.get("wall_thickness_m"):
         return []
-    outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
-    found = [
-        Item("Outer diameter", run.shown.length(outer)),
-        Item("Wall thickness", f"{1000 * wall:g} mm"),
-    ]
-    start = run.summary.get("start_penetration_m", scene.get("initial_penetration_m"))
-    for name, length in (
-        ("Skirt length", scene.get("skirt_length_m")),
-        ("Penetration at the start", start),  # after an installation, where that ended
-    ):
-        if length is not None:
-            found.append(Item(name, run.shown.length(float(length))))
-    for name in ("Wall steps", "Rings"):
-        if text := run.entry(f"{BODY}/{name}"):
-            found.append(Item(f"{name} (m)", text))
-    tip = math.pi / 4 * outer**2 - plug_area(scene)
-    found += [
-        Item("Area inside, of the lid", f"{plug_area(scene):.4g} m²"),
-        Item("Area of the tip", f"{tip:.3g} m²"),
-    ]
-    found += tip_of(run)
+    plug = plug_area(scene)
+    tip = math.pi / 4 * float(scene["diameter_m"]) ** 2 - plug
     by_layer = any(WALLS & set(layer) for layer in scene.get("layers", []))
-    for side in ("outer", "inner"):
-        angle = scene.get(f"{side}_wall_friction_angle_deg")
-        if angle is not None and not (by_layer and not float(angle)):
-            entry = f"{BODY}/Friction angle of the {side} wall"
-            name = f"Friction angle of the {side} wall"
-            found.append(Item(name, f"{float(angle):g}°", is_assumed(run, entry)))
-        adhesion = float(scene.get(f"{side}_wall_adhesion_Pa") or 0)
-        if adhesion:
-            name = f"Adhesion of the {side} wall"
-            found.append(Item(name, with_unit(adhesion, "Pa")))
-    return found + installation_of(run)
-
-
-def tip_of(run: Results) -> list[Item]:
-    """Return shape and friction of the tip; nothing of older files."""
-    found, shape = [], run.entry(f"{BODY}/Tip")
-    if shape:
-        slope = run.entry(f"{BODY}/Tip angle")
-        words = f"{shape}, {slope}°" if shape == "triangular" else shape
-        entries = [f"{BODY}/Tip", f"{BODY}/Tip angle"]
-        assumed = any(is_assumed(run, entry) for entry in entries)
-        found.append(Item("Shape of the tip", words, assumed))
-    entry = f"{BODY}/Friction angle of the tip"
-    if angle := run.entry(entry):
-        words = f"{float(angle):g}°"
-        found.append(Item("Friction angle of the tip", words, is_assumed(run, entry)))
-    return found
-
-
-def installation_of(run: Results) -> list[Item]:
-    """Return how the caisson is installed: its weight, the water, and the speed of
-    the computation."""
-    found, weight = [], run.scene.get("submerged_weight_N")
-    if weight is not None:
-        entry = f"{BODY}/Submerged weight"
-        text = run.shown.words(float(weight) / 1e3, "kN", ".4g")
-        found.append(Item("Weight in water", text, is_assumed(run, entry)))
-    for name, path, unit in (
-        ("Depth of the water", "Water/Water depth", "m"),
-        ("Largest suction of the pump", "Water/Largest suction", "Pa"),
-        ("Velocity of the computation", f"{BODY}/Velocity", "m/s"),
-        ("End of the computation", "Time/End penetration", "m"),
-    ):
-        if path.startswith("Water/") and unit and weight is None:
-            continue
-        if "pump" in name and is_sealed(run):
-            continue
-        if value := run.entry(path):
-            text = entry_with_unit(value, unit)
-            if path == "Time/End penetration" and end_of(run) is not None:
-                text = run.shown.length(float(value))
-            found.append(Item(name, text, is_assumed(run, path)))
-    return found
+    how = run, plug, tip, by_layer, end_of(run), is_sealed(run), in_units
+    path = Path(__file__).with_name("scene.jinja")
+    return [
+        Item(name, value, any(is_assumed(run, x) for x in entries.split(", ")))
+        for name, value, entries in say_rows(path, "caisson", *how, cells=3)
+    ]

@@ -12,21 +12,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson import disk, evaluation
+from caisson import disk, evaluation, template
 from caisson.band import band_of
 from caisson.evaluation import DEPTH, sinks_on
 from caisson.report import pull, remedies
 from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
-from caisson.verdict import installation, outcome, run_review, uncertainty
+from caisson.verdict import outcome, run_review, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
-from caisson.verdict.installation import NOTHING, Installation, Rate
+from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
 from caisson.verdict.limits import COMPUTED, PIPING
 
 NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
 NEARLY = 0.01  # of the largest flow
-LEAST_FLOW = 0.5  # m3/h, below which a flow is in l/min
+REST = "Self-weight penetration"  # a card
+
+Card = tuple[str, str, str]  # name, value, remark
 
 
 class Verdict(NamedTuple):
@@ -37,90 +39,40 @@ class Verdict(NamedTuple):
     reason: str = ""
 
 
-def beside_gradient(run: Results) -> str:
-    """Return where the exit gradient of the run itself becomes critical, in words."""
+say = functools.partial(template.say, pull.SENTENCES)
+
+
+def by_gradient(run: Results) -> tuple[float, bool] | None:
+    """Return the depth (m) where the exit gradient of the run itself becomes critical,
+    and True, or that to which it does not, and False; None where it is not known."""
     found = outcome.whole_way(run)
     limit = found.limits.get(COMPUTED) if found else None
     if found is None or limit is None or not np.isfinite(limit).any():
-        return ""
-    if (end := reached(found, limit)) is None:
-        place = found.shown.place(found.depth[-1])
-        return f"; the computed exit gradient allows {place}"
-    place = found.shown.place(end[0], 1)
-    return f"; the computed exit gradient is critical at {place}"
-
-
-def share_of_allowable(found: Installation) -> str:
-    """Return the largest share of the allowable suction, and what limits it."""
-    shares = found.utilization
-    if not (shares > 0).any():
-        return ""
-    i = int(np.nanargmax(shares))
-    name = found.governing(i)
-    name = found.named(name) + found.remark(name, i)
-    return f", at most {100 * shares[i]:.0f} % of the allowable one ({name})"
+        return None
+    end = reached(found, limit)
+    return (float(found.depth[-1]), False) if end is None else (end[0], True)
 
 
 def of_suction(
     run: Results, found: Installation, ended: tuple[float, str] | None
 ) -> str:
     """Return the verdict on a caisson with a weight, to a depth (m), by a reason."""
-    shown, depth, planned = found.shown, float(found.depth[-1]), planned_end(run)
-    weight = f"weight {shown.force(float(run.scene['submerged_weight_N']) / 1e3)}"
+    planned = planned_end(run)
     if ended is not None:
-        place = shown.place(depth, 1)
-        reason = ended[1] + (
-            beside_gradient(run) if ended[1] == REASONS[PIPING] else ""
-        )
-        reaches = "there the required suction reaches"
-        if found.required[-1] < NEAR * found.allowable[-1]:  # as at a layer
-            reaches = "just below, the required suction passes"
-        words = f"Feasible to {place}: {reaches} the allowable one ({reason})."
-        return words + remedies.sentence_of(run, found, planned or depth)
-    by = f"by {weight} alone: no suction is needed"
-    if found.has_suction:
-        most = int(np.argmax(found.required))
-        text = shown.words(float(found.required[most]), "kPa", ".3g")
-        by = f"by {weight} and suction up to {text}"
-        if bar := installation.bar_at(found, found.required_bounds, most, "kPa"):
-            by += f" ({bar})"
-        by += share_of_allowable(found)
-    place = shown.place(depth)
-    if planned and planned > depth + 1e-3 * max(planned, 1e-3):
-        if reason := str(run.scene.get("end_reason") or "").partition(":")[0]:
-            end = f"There {reason}, short of the planned {shown.place(planned)}."
-            return f"Feasible to {place} {by}. {end}"
-        place += f", as far as the run is (planned {shown.place(planned)}),"
-    return f"Feasible to {place} {by}."
+        gradient = by_gradient(run) if ended[1] == REASONS[PIPING] else None
+        more = remedies.sentence_of(run, found, planned or float(found.depth[-1]))
+        return f"{say('ends', found, ended[1], NEAR, gradient)} {more}".strip()
+    shares = found.utilization
+    nearest = int(np.nanargmax(shares)) if (shares > 0).any() else None
+    most = int(np.argmax(found.required))
+    bar = bar_at(found, found.required_bounds, most, "kPa")
+    return say("goes_in", run, found, planned, most, bar, nearest)
 
 
 def of_force(run: Results, found: Installation) -> str:
     """Return the verdict on a body that is pushed in."""
-    shown, total = found.shown, found.forces["total_force_N"]
-    parts = [f"{shown.force(float(found.forces[k][-1]))}" for k in found.forces][:3]
-    names = ("tip", "friction inside", "outside")
-    of_which = ", ".join(f"{name} {part}" for name, part in zip(names, parts))
-    how = "Jacked" if run.entry("Rigid body/Motion") in ("", "prescribed") else "Sunk"
-    force, effective = total, ""
-    if len(found.with_water):
-        force, effective = (
-            found.with_water,
-            f" with water, {shown.force(total[-1])} eff.",
-        )
-    text = shown.force(float(force[-1])) + effective
-    bounds = found.force_bounds
-    if installation.bar_at(found, bounds, -1, "kN") and bounds is not None:
-        ends = [shown.force(float(side[-1])) for side in bounds[:2]]
-        place = found.shown.place(bounds.end)
-        held = f" as at {place}," if found.depth[-1] > bounds.end + 1e-2 else ""
-        text += f" (error bar{held} {' to '.join(ends)})"
-    largest, most = float(force.max()), int(np.argmax(force))
-    later = ""
-    if largest > 1.02 * float(force[-1]):
-        later = f" The largest force is {shown.force(largest)} at"
-        later += f" {shown.place(float(found.depth[most]))}."
-    place = shown.place(float(found.depth[-1]))
-    return f"{how} to {place}: {text}, of which {of_which}.{later}"
+    is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
+    return say("pushed", found, "Jacked" if is_jacked else "Sunk")
 
 
 @functools.lru_cache(maxsize=16)
@@ -140,101 +92,58 @@ def verdict_of(run: Results) -> Verdict:
     return Verdict(of_suction(run, part, ended), *ended)
 
 
+def begins_at_rest(run: Results, rest: float) -> bool:
+    """Return whether the resistance only builds up above a penetration by weight (m):
+    that is within half a wall thickness of the start."""
+    thickness = float(run.scene.get("wall_thickness_m") or 0)
+    return rest - float(run.history[DEPTH][0]) < thickness / 2
+
+
 def rest_in_words(run: Results, rest: float) -> str:
     """Return the penetration by weight: at most that of the start where the resistance
-    only builds up below it, within half a wall thickness."""
-    begin = float(run.history[DEPTH][0])
-    thickness = float(run.scene.get("wall_thickness_m") or 0)
-    if rest - begin < thickness / 2:
-        return f"at most {run.shown.depth(begin)}, where the run begins"
-    return run.shown.depth(rest)
+    only builds up below it."""
+    is_start = begins_at_rest(run, rest)
+    return say("rest", run.shown, run.history[DEPTH][0] if is_start else rest, is_start)
 
 
-def sinks_on_in_words(run: Results) -> str:
-    """Return where the weight suffices again below the penetration by weight."""
-    shown, end = run.shown, outcome.depth_of(run) or np.inf
-    ways = [
-        f"{shown.place(top)} to {shown.place(bottom)}"
-        for top, bottom in sinks_on(run.history)
-        if top < end
-    ]
-    if not ways:
-        return ""
-    where = " and from ".join(ways)
-    return f"the weight suffices again from {where}: the caisson may run down there"
+def ways_down(run: Results) -> list[tuple[float, float]]:
+    """Return where the weight suffices again (m) above the end of suction."""
+    end = outcome.depth_of(run) or np.inf
+    return [way for way in sinks_on(run.history) if way[0] < end]
 
 
-def cards_of(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
+def largest_flow(found: Installation) -> int:
+    """Return the row of the largest flow, under suction where there is any; of flows
+    that are nearly the largest one, that against the most suction."""
+    pumped = (found.required > NOTHING) | (not found.has_suction)
+    flow = np.where(pumped, found.flow, -np.inf)
+    return int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
+
+
+def cards_of(run: Results, found: Installation, rate: Rate) -> list[Card]:
     """Return (name, value, remark) of what matters beside the verdict."""
-    cards: list[tuple[str, ...]] = []
+    cards: list[Card] = []
     if not len(found.required):
         return cards
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-    shown = found.shown
     if not found.has_suction:
-        remark = "no suction needed to this depth"
-        if found.excess is not None:
-            more = shown.words(found.excess, "kN", ".0f")
-            remark = f"the weight exceeds the resistance by {more}: {remark}"
-        value = f"more than {shown.place(found.depth[-1])}"
-        cards.append(("Self-weight penetration", value, remark))
-        return cards + pump_cards(run, found, rate)
-    if found.rest is not None:
-        remark = f"under {shown.force(weight)} in water" if weight else ""
-        if ways := sinks_on_in_words(run):
-            remark += f"; {ways}"
-        place = rest_in_words(run, found.rest)
-        cards.append(("Self-weight penetration", place, remark))
-    return cards + pump_cards(run, found, rate)
+        cards.append((REST, *halves("no_suction", found)))
+    elif found.rest is not None:
+        weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+        remark = say("under", found.shown, weight, ways_down(run))
+        cards.append((REST, rest_in_words(run, found.rest), remark))
+    if len(found.flow):
+        name = "Pump" if found.has_suction else "Water to vent"
+        cards.append((name, *halves("flow", found, largest_flow(found), rate.words)))
+    if len(found.room):
+        length = float(run.scene["skirt_length_m"])
+        cards.append(("Room below the lid", *halves("room", found, length)))
+    return cards
 
 
-def flow_of(flow: float, form: str) -> str:
-    """Return a flow (m3/h) in words, in l/min where it is that of a model."""
-    if abs(flow) < LEAST_FLOW:
-        return f"{flow * 1000 / 60:{form}} l/min"
-    return f"{flow:{form}} m³/h"
-
-
-def flow_card(found: Installation, rate: Rate) -> tuple[str, ...]:
-    """Return the largest flow, under suction where there is any."""
-    pumped = (
-        found.required > NOTHING
-        if found.has_suction
-        else np.full(len(found.flow), True)
-    )
-    flow = np.where(pumped, found.flow, -np.inf)
-    # of flows that are nearly the largest one, that against the most suction
-    most = int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
-    words = (
-        f"at {found.shown.depth(found.depth[most])} and a penetration of {rate.words}"
-    )
-    if found.has_suction:
-        words += f", against {found.shown.words(found.required[most], 'kPa', '.1f')}"
-        if len(found.seepage):
-            words += f", of which seepage {flow_of(found.seepage[most], '.2g')}"
-    name = "Pump" if found.has_suction else "Water to vent"
-    return name, flow_of(found.flow[most], ".3g"), words
-
-
-def room_card(run: Results, found: Installation) -> tuple[str, ...]:
-    """Return the room below the lid and, from half the skirt on, where heave would use
-    it up if it went on as over the last meter."""
-    depth, heave, room = found.depth, found.heave, float(found.room[-1])
-    shown = found.shown
-    remark = f"at {shown.depth(depth[-1])}; heave of the plug {shown.depth(heave[-1])}"
-    length = float(run.scene["skirt_length_m"])
-    if found.lid and room > 0 and length / 2 < depth[-1] and found.lid < length - 5e-3:
-        remark += (
-            f"; it would meet the lid at about {shown.depth(found.lid).split()[0]} of"
-            f" {shown.length(length)}"
-        )
-    return "Room below the lid", shown.depth(room), remark
-
-
-def pump_cards(run: Results, found: Installation, rate: Rate) -> list[tuple[str, ...]]:
-    """Return the cards of the pump and of the room below the lid."""
-    cards = [flow_card(found, rate)] if len(found.flow) else []
-    return [*cards, room_card(run, found)] if len(found.room) else cards
+def halves(name: str, *data: Any) -> tuple[str, str]:
+    """Return value and remark of a card."""
+    value, _, remark = say(name, *data).partition(" | ")
+    return value, remark
 
 
 def lines_of(run: Results) -> list[str]:
@@ -242,11 +151,8 @@ def lines_of(run: Results) -> list[str]:
     rest = outcome.results_of(run).get("rest_penetration_m")
     by_weight = ""
     if rest is not None:
-        place = rest_in_words(run, rest)
-        at = "" if place.startswith("at most") else "at "
-        by_weight = f"Rests by weight {at}{place}."
-        if ways := sinks_on_in_words(run):
-            by_weight += f" {ways[0].upper()}{ways[1:]}."
+        words = rest_in_words(run, rest), begins_at_rest(run, rest)
+        by_weight = say("rests", run.shown, *words, ways_down(run))
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 

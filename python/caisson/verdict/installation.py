@@ -19,12 +19,10 @@ from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run
 from caisson.paths import INSTALLED
 from caisson.verdict import design, limits, theory
 from caisson.results import Results, Table
-from caisson.design.reasons import text_of
-from caisson.table import by_rows
+from caisson.table import NOTHING, in_units, text_of
 from caisson.shown import USUAL, Units
 
 HOUR = 3600.0
-NOTHING = 5e-4  # of a unit of the tables
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
@@ -57,6 +55,10 @@ class Bounds(NamedTuple):
     high: np.ndarray
     best: np.ndarray
     end: float
+
+    def is_known(self, i: int) -> bool:
+        """Return whether a row has an error bar."""
+        return bool(np.isfinite([self.low[i], self.high[i]]).all())
 
     def scaled(self, factor: float, least: float = -np.inf) -> "Bounds":
         """Return them times a factor, and not below the least one."""
@@ -95,6 +97,11 @@ class Installation:
     def has_suction(self) -> bool:
         """Whether the caisson goes in by suction: its weight alone does not suffice."""
         return bool((self.required > NOTHING).any())
+
+    @property
+    def force(self) -> np.ndarray:
+        """What the body takes, [n]: with the water on its tip, if that is known."""
+        return self.with_water if len(self.with_water) else self.forces["total_force_N"]
 
     @property
     def has_bar(self) -> bool:
@@ -231,23 +238,11 @@ def way_to_an_error(run: Results) -> str:
 def bar_at(found: Installation, bounds: Bounds | None, i: int, unit: str) -> str:
     """Return the error bar of a row and the best estimate in words; nothing where they
     are not known."""
-    if bounds is None or not np.isfinite([bounds.low[i], bounds.high[i]]).all():
+    if bounds is None or not bounds.is_known(i):
         return ""
     low, high, best = (text_of(found.shown.factor(unit) * x[i]) for x in bounds[:3])
     about = "about " if found.depth[i] > bounds.end + 1e-2 else ""
-    best = f", best {best}" if np.isfinite(bounds.best[i]) else ""
-    return f"{about}{low} to {high}{best} {found.shown.name(unit)}"
-
-
-def bar_in_words(run: Results, found: Installation) -> str:
-    """Return how far the error bar reaches, or what computes it."""
-    bounds = found.required_bounds if found.has_suction else found.force_bounds
-    if bounds is None:
-        return f"Error bar not known: {way_to_an_error(run)} computes it."
-    end = found.shown.length(float(f"{bounds.end:.4g}"))
-    if found.depth[-1] <= bounds.end + 1e-2:
-        return ""
-    return f"The error bar reaches to {end}."
+    return f"{about}{low} to {high}{', best ' if best else ''}{best}"
 
 
 def in_range(
@@ -257,18 +252,7 @@ def in_range(
     about, below the end of these."""
     texts = [text_of(found.shown.factor(unit) * float(value)) for value in values]
     bars = [bar_at(found, bounds, i, unit) for i in range(len(values))]
-    return [f"{t} ({b.rpartition(' ')[0]})" if b else t for t, b in zip(texts, bars)]
-
-
-def rows_of(columns: dict[str, list[str]]) -> dict[str, Any]:
-    """Return heads and rows of columns that are not empty."""
-    known = {head: texts for head, texts in columns.items() if texts}
-    return by_rows(known)
-
-
-def texts_of(values: np.ndarray) -> list[str]:
-    """Return numbers as text, those that are next to nothing as 0."""
-    return [text_of(0.0 if abs(v) < NOTHING else float(v)) for v in values]
+    return [f"{t} ({b})" if b else t for t, b in zip(texts, bars)]
 
 
 def trimmed(words: str) -> str:
@@ -279,47 +263,36 @@ def trimmed(words: str) -> str:
 def tables_of(found: Installation) -> list[dict[str, Any]]:
     """Return the tables of the installation, each with heads and rows of text: what it
     takes and, with suction, what is allowed."""
-    n, shown = range(len(found.depth)), found.shown
-    depth = [trimmed(shown.depth(float(depth))) for depth in found.depth]
-    total = found.forces["total_force_N"]
-    takes = {
-        shown.named("depth (m)"): depth,
-        shown.named("resistance (kN)"): in_range(
-            found, total, found.force_bounds, "kN"
-        ),
+    shown, force = found.shown, found.forces["total_force_N"]
+    depth = {"depth (m)": [trimmed(shown.depth(float(h))) for h in found.depth]}
+    takes: dict[str, Any] = {
+        **depth,
+        "resistance (kN)": in_range(found, force, found.force_bounds, "kN"),
+        "tip (kN)": found.forces["tip_force_N"],
+        "inner friction (kN)": found.forces["inner_friction_N"],
+        "outer friction (kN)": found.forces["outer_friction_N"],
+        "with water (kN)": found.with_water,
     }
-
-    def add(columns: dict[str, list[str]], head: str, values: np.ndarray) -> None:
-        columns[shown.named(head)] = texts_of(shown.factor_of(head) * values)
-
-    for name in design.FORCES[:3]:
-        words = name.removesuffix("_N").removesuffix("_force").replace("_", " ")
-        add(takes, f"{words} (kN)", found.forces[name])
-    if len(found.with_water):
-        add(takes, "with water (kN)", found.with_water)
-    if found.has_suction:
-        takes[shown.named("required suction (kPa)")] = in_range(
-            found, found.required, found.required_bounds, "kPa"
-        )
-    head = "pump flow (m³/h)" if found.has_suction else "water to vent (m³/h)"
-    takes[head] = texts_of(found.flow)
+    room = {"plug heave (m)": found.heave, "room below the lid (m)": found.room}
     if not found.has_suction:
-        add(takes, "plug heave (m)", found.heave)
-        add(takes, "room below the lid (m)", found.room)
-        return [rows_of(takes)]
-    takes["of which seepage (m³/h)"] = texts_of(found.seepage)
-    if len(found.flow):
-        power = found.flow / HOUR * found.required
-        takes["power of the water (kW)"] = texts_of(power)
-    margins = {shown.named("depth (m)"): depth}
-    add(margins, "required suction (kPa)", found.required)
-    add(margins, "allowable (kPa)", found.allowable)
-    margins["governed by"] = [found.governing_in_words(i) for i in n]
-    add(margins, "required / allowable", found.utilization)
-    add(margins, "exit gradient / critical", found.gradient)
-    add(margins, "plug heave (m)", found.heave)
-    add(margins, "room below the lid (m)", found.room)
-    return [rows_of(takes), rows_of(margins)]
+        return [in_units(takes | {"water to vent (m³/h)": found.flow} | room, shown)]
+    bars = in_range(found, found.required, found.required_bounds, "kPa")
+    power = found.flow / HOUR * found.required if len(found.flow) else found.flow
+    pump: dict[str, Any] = {
+        "required suction (kPa)": bars,
+        "pump flow (m³/h)": found.flow,
+        "of which seepage (m³/h)": found.seepage,
+        "power of the water (kW)": power,
+    }
+    margins: dict[str, Any] = {
+        **depth,
+        "required suction (kPa)": found.required,
+        "allowable (kPa)": found.allowable,
+        "governed by": [found.governing_in_words(i) for i in range(len(found.depth))],
+        "required / allowable": found.utilization,
+        "exit gradient / critical": found.gradient,
+    }
+    return [in_units(takes | pump, shown), in_units(margins | room, shown)]
 
 
 def cells_of(

@@ -92,19 +92,6 @@ def soft_in_words(tops: np.ndarray, shown: Units) -> str:
     return f"the soft layer below governs, from {' and '.join(places)}"
 
 
-def uncovered_in_words(run: Results, at: np.ndarray) -> str:
-    """Return which clay below a tip in sand no limit covers, at depths [n] (m), in a
-    sentence; nothing without any."""
-    tops = theory.uncovered(theory.site_of(run), at)
-    if not tops:
-        return ""
-    places = " and ".join(run.shown.place(top) for top in tops)
-    return (
-        f"No limit covers the reverse bearing of the clay below (from {places}) while"
-        " the tip is in the sand above it."
-    )
-
-
 def why_absent(run: Results, kind: str) -> str:
     """Return why a run has no limit of a kind: what its scene lacks, else that there is
     none at the depths that are asked for."""
@@ -132,20 +119,18 @@ def absent_of(run: Results, found: dict[str, np.ndarray]) -> list[str]:
     return [f"{x}: {why_absent(run, x)}" for x in kinds if x not in known]
 
 
-def sources_of(run: Results, found: dict[str, np.ndarray]) -> str:
-    """Return where the factors on limits come from, in a sentence."""
+def sources_of(
+    run: Results, found: dict[str, np.ndarray]
+) -> list[tuple[str, float, str]]:
+    """Return entry and value of the factors on limits that are not 1, and where each
+    comes from."""
     factors, given = factors_of(run) if found else {}, run.known.get("entries", {})
     known = {LIMITS[n].entry: (factors[n], LIMITS[n].source) for n in found}
-    words = [
-        f"{entry} {factor:g}"
-        f" ({'given' if f'Design/Factor on {entry}' in given else source})"
+    return [
+        (entry, factor, "given" if f"Design/Factor on {entry}" in given else source)
         for entry, (factor, source) in known.items()
         if factor != 1
     ]
-    others = "1 elsewhere, as none is established"
-    return (
-        f"Factors: {', '.join([*words, others])}." if words else "No factor is in it."
-    )
 
 
 def wall_of(run: Results) -> shell.Wall | None:
@@ -202,28 +187,20 @@ def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
     return np.array(found) / 1e3
 
 
-def rings_in_words(run: Results, at: np.ndarray) -> str:
-    """Return whether the check of the wall counts its rings at depths [n] (m); nothing
-    without a ring where it buckles."""
+def rings_counted(run: Results, at: np.ndarray) -> tuple[int, int]:
+    """Return at how many of depths [n] (m) the wall has rings where it buckles, and at
+    how many of these its check counts them."""
     wall = wall_of(run)
     within = [h for h in map(float, at) if wall and wall.stiffeners_at(h)]
     if not wall or not within:
-        return ""
+        return 0, 0
     factor = factors_of(run)[SHELL]
     weight = float(run.scene.get("submerged_weight_N") or 0)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, within)
-    counted = [
-        h
-        for h, p in zip(within, more)
-        if float.__lt__(*shell.limits_at(wall, h, weight, float(p), factor))
+    pairs = [
+        shell.limits_at(wall, h, weight, float(p), factor) for h, p in zip(within, more)
     ]
-    if len(counted) == len(within):
-        return "Rings divide the wall where it buckles, as flat bars (DNV-RP-C202)."
-    where = " at every depth" if counted else ""
-    return (
-        f"Rings are not counted{where} where the wall buckles: as flat bars they lack"
-        " the area, the moment of inertia or the height that DNV-RP-C202 asks for."
-    )
+    return len(within), sum(plain < with_rings for plain, with_rings in pairs)
 
 
 def write_pressures(path: Path, run: Results) -> Path | None:

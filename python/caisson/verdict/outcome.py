@@ -68,9 +68,9 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
 
 
 @functools.lru_cache(maxsize=16)
-def whole_way(run: Results) -> Installation | None:
+def whole_way(run: Results, rate: Rate = Rate()) -> Installation | None:
     """Return the installation of a run at the depths of the tables, to be read only."""
-    return installation.installation_of(run, Rate())
+    return installation.installation_of(run, rate)
 
 
 @functools.lru_cache(maxsize=16)

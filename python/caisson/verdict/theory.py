@@ -7,12 +7,14 @@ Layers that the tip does not reach do not count.
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
+from caisson.template import say
 from caisson.design import (
     andersen,
     assumed,
@@ -30,6 +32,7 @@ from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne,
 from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
+SENTENCES = Path(__file__).with_name("theory.jinja")
 # The laws whose strength is one friction angle; run.json names the law of a layer.
 LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
 SOFTENING = "Mohr-Coulomb with softening"
@@ -264,25 +267,19 @@ def dnv_of(site: Site, deepest: float) -> Method:
     return dnv.method(skirt, cone_of(site, deepest), soils)
 
 
-def senders_randolph_of(site: Site, deepest: float) -> ConeMethod:
-    """Return Senders and Randolph for a site. Raises NotApplicable."""
-    skirt = skirt_of(site)
-    only(site, deepest, "sand")
-    return senders_randolph.method(skirt, cone_of(site, deepest))
+OfSite = Callable[["Site", float], Method]  # layers down to a depth (m)
 
 
-def unified_of(site: Site, deepest: float) -> ConeMethod:
-    """Return the unified method for a site. Raises NotApplicable."""
-    skirt = skirt_of(site)
-    only(site, deepest, "sand")
-    return unified.method(skirt, cone_of(site, deepest))
+def in_sand(make: Callable[[Skirt, Profile], Method]) -> OfSite:
+    """Return a method from a cone, which is for sand alone, of a site."""
 
+    def of_site(site: Site, deepest: float) -> Method:
+        """Return the method. Raises NotApplicable."""
+        skirt = skirt_of(site)
+        only(site, deepest, "sand")
+        return make(skirt, cone_of(site, deepest))
 
-def andersen_of(site: Site, deepest: float) -> Method:
-    """Return Andersen et al. for a site. Raises NotApplicable."""
-    skirt = skirt_of(site)
-    only(site, deepest, "sand")
-    return andersen.method(skirt, cone_of(site, deepest))
+    return of_site
 
 
 def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
@@ -361,7 +358,7 @@ class Description(NamedTuple):
     key: str
     color: str
     cases: tuple[str, str]
-    of_site: Callable[[Site, float], Method]
+    of_site: OfSite
     bound: tuple[str, ...] = ()  # a case below the range of the others
 
     @property
@@ -385,13 +382,21 @@ METHODS = (
         "senders_randolph",
         "#2e8b57",
         senders_randolph.CASES,
-        senders_randolph_of,
+        in_sand(senders_randolph.method),
     ),
     Description(
-        "ISO 19901-4 (unified)", "unified", "#c51b7d", unified.CASES, unified_of
+        "ISO 19901-4 (unified)",
+        "unified",
+        "#c51b7d",
+        unified.CASES,
+        in_sand(unified.method),
     ),
     Description(
-        "Andersen et al. (2008)", "andersen", "#7b3294", andersen.CASES, andersen_of
+        "Andersen et al. (2008)",
+        "andersen",
+        "#7b3294",
+        andersen.CASES,
+        in_sand(andersen.method),
     ),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
 )
@@ -455,22 +460,7 @@ class Answer:
 def assumptions_in_words(scene: Scene) -> str:
     """Return what the cases of Houlsby and Byrne are."""
     assumed = assumptions_of(scene)
-    ranges = [text_of_range(k) for k in (assumed[0], assumed[1])]
-    if ranges[0] == ranges[1]:
-        walls = f"{ranges[0]} on both walls"
-    else:
-        walls = f"{ranges[0]} inside and {ranges[1]} outside"
-    spread = assumed.load_spread
-    enhancement = f" with m\N{NO-BREAK SPACE}= {spread:g}" if spread else ""
-    return (
-        f"Houlsby & Byrne: K tan \N{GREEK SMALL LETTER DELTA} = {walls},"
-        f" {'stress' if spread else 'no stress'} enhancement{enhancement}"
-    )
-
-
-def text_of_range(ends: tuple[float, float]) -> str:
-    """Return both ends, or the only number."""
-    return " to ".join(dict.fromkeys(f"{end:g}" for end in ends))
+    return say(SENTENCES, "assumptions", *assumed[:2], assumed.load_spread)
 
 
 def by_part(rows: list[Forces]) -> dict[str, np.ndarray]:
@@ -518,28 +508,21 @@ def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
 
 def reasons_in_words(answers: list[Answer]) -> str:
     """Return which methods have no answer, and why, in one line."""
-    texts = [f"{names}: {why}" for names, why in reasons(answers)]
-    return f"no answer from {'; '.join(texts)}" if texts else ""
+    return say(SENTENCES, "no_answers", reasons(answers))
 
 
 def about_cone(site: Site, deepest: float) -> str:
     """Return a sentence where the cone test ends above an embedment (m), or what a
     cone resistance that is assumed rests on; with the friction angle of sand whose
     strength follows from its density."""
+    assumed, end, angles = "", None, list[float]()
     if site.cone is None:
         answers = answers_of(site, np.array([deepest]))
-        found = [next((a.assumed for a in answers if a.assumed), "")]
+        assumed = next((a.assumed for a in answers if a.assumed), "")
     elif site.cone.depth[-1] < deepest - 1e-9:
-        end = f"The cone test ends at {site.cone.depth[-1]:.4g} m; below, the methods"
-        found = [f"{end} that need it have no answer."]
-    else:
-        found = []
+        end = float(site.cone.depth[-1])
     if any(e.get("law") in BY_DENSITY for _, e in site.layers(deepest)):
         with suppress(NotApplicable):
-            angles = [layer.friction_angle for layer in layers_of(site, deepest)]
-            ends = text_of_range((round(min(angles), 1), round(max(angles), 1)))
-            found.append(
-                f"Houlsby & Byrne: friction angle ASSUMED, {ends} degrees, by Bolton"
-                " (1986) from density and stress under a tip."
-            )
-    return " ".join(filter(None, found))
+            found = [layer.friction_angle for layer in layers_of(site, deepest)]
+            angles = [round(min(found), 1), round(max(found), 1)]
+    return say(SENTENCES, "about_cone", end, assumed, angles)
