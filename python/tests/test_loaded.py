@@ -53,8 +53,14 @@ class Package(unittest.TestCase):
         code = "import caisson.commands.run; print(callable(caisson.run))"
         self.assertEqual(self.python(code), "True")
 
+    def test_packages_are_functions(self) -> None:
+        """Those of commands, before and after the command has loaded them."""
+        code = "import caisson, caisson.commands.cpt as c; print(c.suggest.end_of and"
+        code += " all(map(callable, (caisson.suggest, caisson.log, caisson.report))))"
+        self.assertEqual(self.python(code), "True")
+
     def test_names(self) -> None:
-        for name in caisson.__all__:
+        for name in [*caisson.__all__, *caisson.PACKAGES]:
             self.assertTrue(getattr(caisson, name).__doc__, name)
             self.assertIn(name, dir(caisson))
         with self.assertRaisesRegex(AttributeError, "'caisson' has no attribute 'x'"):

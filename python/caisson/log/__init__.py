@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from caisson import disk, evaluation
+from caisson.callable_package import make_callable
 from caisson.paths import short
 from caisson.results import Results, ResultsError
 
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 PAGE, PICTURE, TABLE = "vessel.html", "vessel.png", "vessel.csv"
 EXTRAPOLATED = "extrapolated"  # the column that names the lines that are
+
+
+make_callable(__name__)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 from caisson import disk, error_bounds
+from caisson.callable_package import make_callable
 from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, draw, keep_methods
 from caisson.results import Results, ResultsError
@@ -65,6 +66,9 @@ def print_pdf(path: Path) -> Path:
     disk.write(pdf, disk.read_bytes(new))
     new.unlink()
     return pdf
+
+
+make_callable(__name__)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -39,6 +39,7 @@ from typing import Any
 
 from caisson import density_law, disk
 from caisson.band import member_of
+from caisson.callable_package import make_callable
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
 from caisson.template import template
@@ -60,6 +61,9 @@ VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
 FAILS = "the first steps of the run fail"  # of --validate
+
+
+make_callable(__name__)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
