@@ -53,10 +53,11 @@ def options_of(
 
 def call(command: str, *places: str | Path, **given: Any) -> argparse.Namespace:
     """Call a command with its options, and return these. It prints what it always
-    does. Raises InputError."""
+    does. Raises InputError, and RunError where a run of it fails."""
     options = options_of(command, list(places), given)
     disk.begin(paths_in(options))
-    importlib.import_module(COMMANDS[command][0]).main(options)
+    if importlib.import_module(COMMANDS[command][0]).main(options):
+        raise RunError(f"{command}: a run failed; what is printed above says why")
     return options
 
 
@@ -102,7 +103,7 @@ def cpt(file: str | Path, out: str | Path, **options: Any) -> Path:
         soil: "clay", or ["2=clay", ...]; round_trip=True.
 
     Prints the layers. Raises InputError where the file cannot be read or holds no cone
-    test.
+    test, and RunError where a run fails.
 
         caisson.cpt("cpt_1.gef", "results/cpt_1")
         layers = pandas.read_csv("results/cpt_1/layers.csv")
