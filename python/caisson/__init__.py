@@ -5,51 +5,45 @@ For scripts and notebooks (doc/how_to/python.md):
 
     import caisson
 
-    run = caisson.run("jack_coarse.prm", set={"Time/Inertia tolerance": 0.1})
-    run = caisson.load("results/jack")  # or one that is there
+    scene = caisson.suggest_scene("own.prm", diameter=10, skirt=8, wall="40mm", sand="dense")
+    run = caisson.run(scene, set={"Time/Inertia tolerance": 0.1})
+    run = caisson.load("results/own")   # or one that is there
     run.history                         # a pandas.DataFrame; attrs["units"]
     run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista
+    caisson.write_report("results/own")       # its page
 
-The modules of the core, each above those that it uses:
+The functions, with help(caisson.load) and so on:
 
-    disk, paths, table      files, where things are, how tables look
-    units, shown            units in names and constants; units of results
-    scenes, lock            the scenes that come with the program; the lock of a run
-    runner                  Run: one call of the program with entries set
-    results                 Results: what a run has left in its directory
-    curves                  means over windows and other numbers of a curve
-    frame                   meshes and tables of a moment of a run
-    progress                how far a study is
-    study                   the format of all studies, and how they are run
-    completion              what a shell completes
-    command_line            a command line with subcommands in groups
+    suggest_scene, cpt         a scene for your own caisson; soil from a cone test
+    run, load                  run a scene; the results of a run that is there
+    error_bar                  the numerical error of a scene
+    write_report, compare_log  the page on a run; a run beside the log of the vessel
 
-The folders, each above those that it uses; the core imports none of them, and api, with
-run() and load(), is above all:
+Errors are InputError and, of it, RunError and ResultsError: their text says what is
+wrong with the input, the run or its files, and what to do.
 
-    design                  design methods, and cone tests as files
-    verdict                 what is decided about a run: limits, end, outcome; load()
-    plot                    pictures of a run
-    error                   error bars of scenes
-    parameters              studies of uncertain or varied entries
-    export, report          the state for other programs, a page on a run
-    suggest                 scenes for one's own caisson
-    commands                those that use several folders: run and cpt
+Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays are
+given with their shapes, as in [n_rows]. Needed besides Python 3.11 are numpy, SciPy,
+matplotlib, VTK and Jinja2, as Debian packages them, and pandas for history.
 
-scripts/caisson is the command line; __main__ knows all commands by name, and loads the
-one that is called. Needed besides Python 3.11: numpy, SciPy, matplotlib, VTK and
-Jinja2, as Debian packages them; pandas for history.
-The laboratory (lab) and the workshop (tools) import the package; it imports
-nothing of them.
-
-Units are SI, angles in degrees, unless a name says otherwise (wall_kN). Arrays
-are given with their shapes, as in [n_rows].
+The package is also the command line scripts/caisson: __main__ knows all commands by
+name, and loads the one that is called. doc/architecture.md has its folders. The
+laboratory (lab) and the workshop (tools) import the package; it imports nothing of
+them.
 """
 import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from caisson.api import run
+    from caisson.api import (
+        compare_log,
+        cpt,
+        error_bar,
+        run,
+        suggest_scene,
+        write_report,
+    )
+    from caisson.disk import InputError
     from caisson.frame import Frame
     from caisson.verdict.loaded import LoadedRun, load
     from caisson.results import ResultsError
@@ -57,18 +51,36 @@ if TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["Frame", "LoadedRun", "ResultsError", "RunError", "load", "run"]
-
 # the module of each name, which is loaded when the name is used: commands, and an
 # import alone, need none of them
 MODULES = {
+    "compare_log": "caisson.api",
+    "cpt": "caisson.api",
+    "error_bar": "caisson.api",
     "run": "caisson.api",
+    "suggest_scene": "caisson.api",
+    "write_report": "caisson.api",
+    "InputError": "caisson.disk",
     "Frame": "caisson.frame",
     "LoadedRun": "caisson.verdict.loaded",
     "load": "caisson.verdict.loaded",
     "ResultsError": "caisson.results",
     "RunError": "caisson.runner",
 }
+__all__ = [
+    "Frame",
+    "InputError",
+    "LoadedRun",
+    "ResultsError",
+    "RunError",
+    "compare_log",
+    "cpt",
+    "error_bar",
+    "load",
+    "run",
+    "suggest_scene",
+    "write_report",
+]
 
 
 def __getattr__(name: str) -> Any:
@@ -82,4 +94,4 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     """Return the names for completion in a notebook."""
-    return sorted([*globals(), *__all__, "__version__"])
+    return sorted({*globals(), *__all__, "__version__"})

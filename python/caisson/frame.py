@@ -40,6 +40,12 @@ class Frame:
     has it; index: the number of the frame, from 0 on.
 
     The meshes need VTK (python3-vtk9): without it they raise ModuleNotFoundError.
+    ResultsError is raised where a file is gone, or has no field of a name.
+
+        frame = caisson.load("results/jack").frame(penetration=2.5)
+        frame.cell_data["stress_Pa"]        # [n_cells, 6]
+        frame.units["stress_Pa"]            # "Pa"
+        pyvista.wrap(frame.mesh).plot(scalars="vertical_effective_stress_kPa")
     """
 
     def __init__(
@@ -95,8 +101,9 @@ class Frame:
 
     @functools.cached_property
     def cell_data(self) -> Arrays:
-        """The fields of the cells by name: [n_cells]. The arrays are those of mesh, so
-        that what is written to one is in the other."""
+        """The fields of the cells by name: [n_cells], and [n_cells, 6] of stress, as in
+        point_data; nan in a cell without points. The arrays are those of mesh, so that
+        what is written to one is in the other."""
         found = reader().named_arrays(self.mesh.GetCellData())
         return Read(self._files["grid"][0], found)
 

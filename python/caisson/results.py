@@ -40,7 +40,8 @@ class Read(dict[str, Any]):
 
 
 def read_table(path: Path) -> Table:
-    """Return the columns [n_rows] of a .csv file by name.
+    """Return the columns [n_rows] of a .csv file by name, as in
+    read_table(Path("results/jack/history.csv"))["time_s"].
 
     Lines that begin with "#" are left out, and so are rows that are not whole,
     as the last one of a run that was killed. Raises ResultsError where there is
@@ -73,10 +74,16 @@ class Results:
     """The files of one run, each read when it is asked for, and once.
 
     Columns of a table are arrays [n_rows]; names carry the units. Raises
-    ResultsError where a file is missing or cannot be read.
+    ResultsError where a file is missing or cannot be read. It needs neither pandas nor
+    VTK; caisson.load() has it as LoadedRun.results.
+
+        results = Results(Path("results/jack"))
+        results.history["tip_force_N"]          # [n_rows], N
+        results.entry("Rigid body/Kind")        # "caisson"
     """
 
     def __init__(self, directory: Path) -> None:
+        """directory: the output directory of the run."""
         self.directory = Path(directory)
 
     def table(self, name: str, column: str) -> Table:

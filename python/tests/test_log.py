@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from synthetic import write_run
 
+import caisson
 from caisson import log as log_command
 from caisson.disk import InputError
 from caisson.log import expected, forecast, measured, picture, sheet, words
@@ -115,6 +116,14 @@ class Vessel(unittest.TestCase):
             true = (factor * BEST[-1] - WEIGHT) / AREA / 1e3
             self.assertLess(ahead.low[-1], true)
             self.assertGreater(ahead.high[-1], true)
+
+    def test_function(self) -> None:
+        """caisson.compare_log() says what the command prints."""
+        self.write_runs()
+        self.write_log(BEST, 6.0)
+        said = caisson.compare_log(self.own, self.file)
+        self.assertEqual(said, log_command.write(self.own, self.file)[1])
+        self.assertIn("within the band", " ".join(said))
 
     def test_soil_outside(self) -> None:
         """It is said where the log leaves the band, also in the soil of a layer."""

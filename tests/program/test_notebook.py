@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""caisson.run() and caisson.load() with the program, and the notebook of the manual,
+"""The functions of `import caisson` with the program, and the notebook of the manual,
 whose cells are executed in their order. No Jupyter is needed, and none is tested."""
 import contextlib
 import io
@@ -48,6 +48,29 @@ class Notebook(ProgramTest):
     def test_it_is_stored_without_outputs(self) -> None:
         for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
             self.assertEqual(cell.get("outputs", []), [])
+
+
+class Functions(ProgramTest):
+    """The commands that are functions of the package."""
+
+    def test_a_scene_and_its_page(self) -> None:
+        """From the sizes of a caisson to the page on its run. The log has its own
+        test, python/tests/test_log.py."""
+        write_scene, write_page = caisson.suggest_scene, caisson.write_report
+        sizes = {"diameter": 4, "skirt": 2.5, "wall": "400mm", "error": 20}
+        with contextlib.chdir(self.made_directory()):
+            scene = write_scene("own.prm", sand="dense", penetration=1, **sizes)
+            bar = caisson.error_bar(scene, "10h", list=True)
+            self.assertEqual(bar.resolve(), Path("own_error_bar.csv").resolve())
+            run = caisson.run(scene, {"Time/End time": 0.1}, output_directory="own")
+            self.assertEqual(write_page("own", rate=2), Path("own/report.html"))
+            self.assertTrue((run.directory / "verdict.json").is_file())
+            with self.assertRaisesRegex(caisson.InputError, "own.prm exists"):
+                write_scene("own.prm", sand="dense", **sizes)
+            with self.assertRaisesRegex(caisson.InputError, "did you mean --weight"):
+                write_scene("two.prm", sand="dense", weigh=1, **sizes)
+            layers = caisson.cpt(ROOT / "prm/cpt_example.csv", "ground", tops="0,3")
+            self.assertTrue((layers / "layers.csv").is_file())
 
 
 class Runs(ProgramTest):

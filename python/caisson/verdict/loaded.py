@@ -40,6 +40,11 @@ class LoadedRun:
     A file is read when it is asked for, and once; load() again to see what a run that
     goes on has written since. Values are in SI units, which the names of columns and
     fields carry. Raises ResultsError where a file is missing or cannot be read.
+
+    directory: that of the run (a Path).
+    status, summary, outcome: how it ended; its sizes and times; its main numbers.
+    history, observations: tables over the time.
+    frames, frame(): the state of the soil at times.
     """
 
     def __init__(self, directory: Path) -> None:
@@ -68,7 +73,11 @@ class LoadedRun:
         The columns are those of history.csv, such as penetration_m and tip_force_N;
         the manual lists them (doc/how_to/results.md). attrs["units"] has their units.
         Forces are those of the soil on the body, for the whole circumference, positive
-        upward, and each is the mean since the row before. Needs pandas.
+        upward, and each is the mean since the row before. Raises ModuleNotFoundError
+        where there is no pandas.
+
+            history = run.history
+            history.plot(x="penetration_m", y="total_force_N")
         """
         return data_frame(self.results.history)
 
@@ -80,7 +89,8 @@ class LoadedRun:
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """Sizes, times, counts, energies and warnings of the whole run: run.json.
+        """Sizes, times, counts, energies and warnings of the whole run: run.json, as in
+        run.summary["material_points"].
 
         Raises ResultsError where the run has not come to its end.
         """
@@ -95,8 +105,8 @@ class LoadedRun:
     @property
     def outcome(self) -> dict[str, Any]:
         """The largest force, the margins, the largest pull and the numbers at depths,
-        by names; of a run that goes on those so far. The manual lists them
-        (doc/how_to/results.md)."""
+        by names, in SI units, as in run.outcome["largest_force"]; of a run that goes on
+        those so far. The manual lists them (doc/how_to/results.md)."""
         return outcome.results_of(self.results)
 
     @functools.cached_property
@@ -126,12 +136,18 @@ class LoadedRun:
         index: int | None = None,
         tolerance: float = TOLERANCE,
     ) -> Frame:
-        """Return one frame: that at a penetration (m), at a time (s), or of an index,
-        which counts from 0, or from the end where it is negative.
+        """Return one frame. Give exactly one of the first three.
 
-        Give exactly one of the three. A penetration or time must be that of a frame
-        within the tolerance (m or s); of several as near the first is taken. Raises
-        ResultsError, which names the nearest frames, where there is none.
+        penetration, time: of the frame (m, s), within the tolerance; of several as near
+            the first is taken.
+        index: from 0 on, or from the end where it is negative.
+        tolerance: of a penetration (m) or time (s).
+
+        Raises ResultsError, which names the nearest frames, where there is none, and
+        TypeError where not exactly one is given.
+
+            stress = run.frame(penetration=2.5).cell_data["stress_Pa"]  # [n_cells, 6]
+            last = run.frame(index=-1)
         """
         if [penetration, time, index].count(None) != 2:
             raise TypeError("give one of penetration, time and index")
@@ -155,11 +171,26 @@ class LoadedRun:
 
 
 def load(directory: str | Path) -> LoadedRun:
-    """Return the run whose output directory this is; relative to the current folder.
+    """Return a run by its output directory.
 
-    A run that has not ended, or was stopped, can be loaded too: its history and frames
-    are those that it has written so far. Raises ResultsError where there is no such
-    directory, or no run has written to it.
+    directory: relative to the current folder, such as results/jack. A run that has not
+        ended, or was stopped, can be loaded too: its history and frames are those that
+        it has written so far.
+
+    Returns a LoadedRun, whose values are in SI units:
+
+        history         a pandas.DataFrame over the time (s): penetration_m,
+                        tip_force_N, total_force_N, suction_Pa, ...
+        frame(...)      meshes and arrays at a penetration (m) or a time (s)
+        outcome         the largest force, margins and numbers at depths, by names
+        status, summary "finished", for example; sizes and times, by names
+
+    Raises ResultsError where there is no such directory, no run has written to it, or,
+    later, a file is missing or cannot be read.
+
+        run = caisson.load("results/jack")
+        run.history["total_force_N"].max()                      # N
+        run.frame(penetration=2.5).cell_data["void_ratio"]      # [n_cells]
     """
     path = Path(directory).expanduser().absolute()  # the folder may change later
     if not path.is_dir():
