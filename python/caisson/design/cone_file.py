@@ -192,6 +192,7 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     above, water = above_of(how.above), depth_of_water(how.zeroed_on_deck)
     with naming(path):
         found = Readings(table, EVERY if with_friction else NEEDED)
+        found.refuse_thousands()
         found.make_depths()
         found.turn_round()
         found.make_friction()
@@ -208,17 +209,20 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
         gaps = found.gaps()
         start, how_known = found.reach_up(above)
         found.say_rest()
-    values = found.values
+    friction, pressure = (
+        None if np.isnan(values).any() else values
+        for values in (found.friction, found.pressure)
+    )
     return Test(
-        values["depth"],
-        values[found.tip],
-        values.get("fs"),
-        values.get("u2"),
+        found.depth,
+        found.tip,
+        friction,
+        pressure,
         tuple(dict.fromkeys(found.remarks)),
         table.facts.area_ratio,
         start,
         how_known,
-        found.tip == "qt",
+        found.tip_name == "qt",
         gaps,
         was_zeroed,
     )

@@ -52,34 +52,31 @@ DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
 
 
 class Readings:
-    """The rows of a test: the number of each in the file, its values by quantity in m
-    and Pa (nan for none) and the name of its push, [n] each; and remarks on what was
-    made of them. Each rule changes or refuses them, by InputError."""
+    """The rows of a test, [n] each: the number of each in the file, the name of its
+    push, depth and length of the rods (m), cone resistance, sleeve friction and pore
+    pressure (Pa), and friction ratio, nan for none; and remarks on what was made of
+    them. Each rule changes or refuses them, by InputError."""
+
+    ARRAYS = "row push depth rods tip friction pressure ratio".split()
 
     def __init__(self, table: Table, wanted: Sequence[str]) -> None:
         """wanted: the quantities that are read."""
         self.table, self.wanted = table, wanted
         self.columns = columns_of(table, wanted)
-        self.row, self.values, self.push = numbers_of(table, self.columns)
-        self.tip = "qt" if "qt" in self.values else "qc"
+        self.row, values, self.push = numbers_of(table, self.columns)
+        none = np.full(len(self.row), np.nan)
+        self.rods = values.get("rods", none)
+        self.depth = values.get("depth", self.rods)
+        self.tip_name = "qt" if "qt" in values else "qc"
+        self.tip, self.friction = values[self.tip_name], values.get("fs", none)
+        self.pressure, self.ratio = values.get("u2", none), values.get("rf", none)
         self.remarks = list(table.remarks)
         self.check_unit = f"check the unit in {table.units_are}"
-        self.refuse_thousands()
-
-    @property
-    def depth(self) -> np.ndarray:
-        """The depths (m) [n]."""
-        return self.values["depth"]
-
-    @property
-    def resistance(self) -> np.ndarray:
-        """The cone resistances (Pa) [n]."""
-        return self.values[self.tip]
 
     def keep(self, rows: np.ndarray) -> None:
         """Keep some rows, or all in another order."""
-        self.row, self.push = self.row[rows], self.push[rows]
-        self.values = {name: values[rows] for name, values in self.values.items()}
+        for name in self.ARRAYS:
+            setattr(self, name, getattr(self, name)[rows])
 
     def say(self, rows: np.ndarray, what: str, why: str = "") -> None:
         """Remark on rows [n]: what they are, how many, and why."""
@@ -105,7 +102,7 @@ class Readings:
     def refuse_thousands(self) -> None:
         """Refuse cone resistances that are thousands with separators, which would be
         read as decimals."""
-        column = self.columns[self.tip]
+        column = self.columns[self.tip_name]
         texts = column_cells(self.table.rows, column.place)
         there = [text for text in texts if re.search("[.,]", text)]
         factor = column.factor or 1.0
@@ -113,7 +110,7 @@ class Readings:
             return
         has_hundreds = any(re.fullmatch(r"\d{3}", text) for text in texts)
         most = max(float(text.replace(",", ".")) for text in there) * factor
-        largest = float(np.nanmax(self.resistance))
+        largest = float(np.nanmax(self.tip))
         if most < WEAK and (largest < WEAK or has_hundreds):
             row, text = self.table.rows[texts.index(there[0])][0], there[0]
             raise InputError(
@@ -126,12 +123,9 @@ class Readings:
     def make_depths(self) -> None:
         """Take depths that are negative by their amount, and of a corrected depth and a
         length the first if they agree; leave out rows without a depth or q_c."""
-        for name in ("depth", "rods"):
-            if name in self.values:
-                self.values[name] = self.downward(self.values[name])
-        rods = self.values.pop("rods", np.full(len(self.row), np.nan))
-        self.values["depth"] = self.corrected(self.values.get("depth", rods), rods)
-        empty = np.isnan(self.depth) | np.isnan(self.resistance)
+        self.depth, self.rods = self.downward(self.depth), self.downward(self.rods)
+        self.depth = self.corrected()
+        empty = np.isnan(self.depth) | np.isnan(self.tip)
         self.leave_out(empty, "rows without a depth or a cone resistance")
         self.refuse(
             self.depth > DEEPEST,
@@ -146,9 +140,10 @@ class Readings:
             " downward from the mudline, or all negative",
         )
 
-    def corrected(self, depth: np.ndarray, rods: np.ndarray) -> np.ndarray:
+    def corrected(self) -> np.ndarray:
         """Return depths [n]: those that are corrected, or the length of the rods where
         most do not agree with it; where there is none, it follows from the length."""
+        depth, rods = self.depth, self.rods
         both, short = np.isfinite(depth + rods), np.isnan(depth) & np.isfinite(rods)
         if not both.any():
             return depth
@@ -181,21 +176,17 @@ class Readings:
     def turn_round(self) -> None:
         """Begin at the top where the deepest row comes first."""
         steps = np.diff(self.depth)
-        has_order = (
-            not self.table.is_register and not self.table.pushes and len(steps) > 1
-        )
-        if has_order and (steps <= 0).all() and steps.any():
+        is_other = self.table.is_register or self.table.pushes or len(steps) < 2
+        if not is_other and (steps <= 0).all() and steps.any():
             self.remarks.append("the deepest row comes first: turned round")
             self.keep(np.arange(len(self.row))[::-1])
 
     def make_friction(self) -> None:
         """Take the sleeve friction from the friction ratio where there is none."""
-        ratio = self.values.pop("rf", np.full(len(self.row), np.nan))
-        friction = self.values.get("fs", np.full(len(self.row), np.nan))
-        rows = np.isnan(friction) & np.isfinite(ratio)
+        rows = np.isnan(self.friction) & np.isfinite(self.ratio)
         if rows.any():
-            found = ratio * np.maximum(self.resistance, 0.0)
-            self.values["fs"] = np.where(rows, found, friction)
+            found = self.ratio * np.maximum(self.tip, 0.0)
+            self.friction = np.where(rows, found, self.friction)
             text = f"{self.columns['rf'].text!r}, f_s = R_f q_c / 100"
             self.remarks.append(f"sleeve friction: from {text}, in {rows.sum()} rows")
 
@@ -245,35 +236,34 @@ class Readings:
     def leave_out_values(self) -> None:
         """Leave out the sleeve frictions and pore pressures that cannot be meant where
         they are few, as at the end where the rods are pulled; not their rows."""
-        for name in (x for x in ("fs", "u2") if x in self.values):
-            values, (low, high) = self.values[name], RANGES[name]
+        moved = np.zeros(len(self.row), dtype=bool)
+        for key, name in (("fs", "friction"), ("u2", "pressure")):
+            values, (low, high) = getattr(self, name), RANGES[key]
             wrong = beyond = (values < low) | (values > high)
-            if name == "fs":  # in soil, which the cone resistance shows
-                tip = self.resistance
-                wrong = beyond | (values > tip) & (tip > WEAK)
+            if key == "fs":  # in soil, which the cone resistance shows
+                wrong = beyond | (values > self.tip) & (self.tip > WEAK)
             if not 0 < wrong.sum() <= FEW * len(wrong):
                 continue
-            # as where the cells of a row stand one column beside their heads
-            is_moved = name == "fs" and "u2" in self.values and beyond.any()
+            if key == "fs" and "u2" in self.columns:
+                # as where the cells of a row stand one column beside their heads
+                moved = beyond
             some = values[wrong] / 1e3
             self.say(
                 wrong,
-                f"values of the {QUANTITIES[name].name} from {some.min():g} to"
+                f"values of the {QUANTITIES[key].name} from {some.min():g} to"
                 f" {some.max():g} kPa, which cannot be meant, left out",
-                "; the pore pressure of these rows, too" if is_moved else "",
+                "; the pore pressure of these rows, too" if moved.any() else "",
             )
-            self.values[name] = np.where(wrong, np.nan, values)
-            if is_moved:
-                self.values["u2"] = np.where(beyond, np.nan, self.values["u2"])
+            setattr(self, name, np.where(wrong, np.nan, values))
+            self.pressure = np.where(moved, np.nan, self.pressure)
 
     def leave_out_no_load(self) -> None:
         """Leave out the rows in which the cone met no soil: a resistance of less than 0
         or the sleeve friction; at the start of a test, or few. In soft soil, too, the
         resistance is about 0: there they count, and less than 0 is 0."""
-        tip, depth = self.resistance, self.depth
-        friction = self.values.get("fs", np.zeros(len(tip)))
-        low = RANGES[self.tip][0]
-        empty = (tip >= low) & ((tip < 0) | (friction > np.maximum(tip, 0)))
+        tip, depth, friction = self.tip, self.depth, self.friction
+        is_rubbed = friction > np.maximum(tip, 0)
+        empty = (tip >= RANGES["qc"][0]) & ((tip < 0) | is_rubbed)
         first = int(np.argmin(empty)) if not empty.all() else len(tip)
         soft = np.zeros(len(tip), dtype=bool)
         for i in np.flatnonzero(empty & (first < len(tip))):
@@ -289,7 +279,7 @@ class Readings:
                 f" {some[-1]:g} m, are kept, q_c below 0 as 0",
                 "; check the zero of the test",
             )
-            self.values[self.tip] = tip = np.where(soft, np.maximum(tip, 0.0), tip)
+            self.tip = tip = np.where(soft, np.maximum(tip, 0.0), tip)
             empty &= ~soft
         few = empty[first:].sum() <= FEW * len(tip)
         if few and first < len(tip) / 2:
@@ -324,16 +314,20 @@ class Readings:
 
     def check_ranges(self) -> None:
         """Refuse stresses that cannot be meant."""
-        if not np.median(self.resistance) > 0:
+        if not np.median(self.tip) > 0:
             raise InputError(
                 "the cone resistance is 0 in most rows; check which column it is, and"
                 f" the unit in {self.table.units_are}"
             )
-        for name, (low, high) in RANGES.items():
-            values = self.values.get(name, np.zeros(0))
+        for key, values in (
+            (self.tip_name, self.tip),
+            ("fs", self.friction),
+            ("u2", self.pressure),
+        ):
+            low, high = RANGES[key]
             self.refuse(
                 (values < low) | (values > high),
-                lambda i: f"the {QUANTITIES[name].name} is {values[i] / 1e6:g} MPa,"
+                lambda i: f"the {QUANTITIES[key].name} is {values[i] / 1e6:g} MPa,"
                 f" which is not between {low / 1e6:g} and {high / 1e6:g} MPa;"
                 f" {self.check_unit}",
             )
@@ -341,10 +335,11 @@ class Readings:
     def complete_friction(self) -> None:
         """Take a drift below 0 as 0, and where there is none the share of q_c of the
         rows next to it; refuse a friction in another unit than its column says."""
-        if not self.has_values("fs"):
+        depth, friction = self.depth, self.completed("fs", self.friction)
+        known, tip = np.isfinite(friction), np.maximum(self.tip, 1.0)
+        self.friction = friction
+        if not known.any():
             return
-        friction, tip = self.values["fs"], np.maximum(self.resistance, 1.0)
-        depth, known = self.depth, np.isfinite(self.values["fs"])
         ratio = float(np.median(friction[known] / tip[known]))
         if ratio < SMOOTHEST:
             raise InputError(
@@ -366,26 +361,27 @@ class Readings:
                 f" {depth[~known][0]:g} to {depth[~known][-1]:g} m"
             )
         share = np.interp(depth, depth[known], (friction / tip)[known])
-        self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
+        self.friction = np.maximum(np.where(known, friction, share * tip), 0.0)
 
-    def has_values(self, name: str) -> bool:
-        """Return whether a column has values in enough rows to tell of the others; one
-        that has not is left out, and said."""
-        if name not in self.values:
-            return False
-        number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)
-        if number < ENOUGH * rows:
-            del self.values[name]
+    def completed(self, key: str, values: np.ndarray) -> np.ndarray:
+        """Return the values [n] of a column if they are enough to tell of the rows
+        without one, else nan, which is said."""
+        number, rows = int(np.isfinite(values).sum()), len(self.row)
+        if number >= ENOUGH * rows:
+            return values
+        if number or key in self.columns:
             some = f"values in only {number} of {rows} rows" if number else "no values"
-            self.remarks.append(f"the column of {QUANTITIES[name].name} has {some}")
-        return name in self.values
+            self.remarks.append(f"the column of {QUANTITIES[key].name} has {some}")
+        return np.full(rows, np.nan)
 
     def complete_pressure(self) -> None:
         """Take the pore pressure as hydrostatic where there is none."""
-        if not self.has_values("u2"):
-            return
-        depth, pressure = self.depth, self.values["u2"]
+        depth, pressure = self.depth, self.completed("u2", self.pressure)
         missing = np.isnan(pressure)
+        self.pressure = np.where(missing, WATER * depth, pressure)
+        if missing.all():
+            self.pressure = pressure
+            return
         ratio = np.abs(pressure[~missing]) / (WATER * np.maximum(depth[~missing], 0.1))
         if np.median(ratio) < DRY:
             self.remarks.append(
@@ -393,7 +389,6 @@ class Readings:
                 f" in the median; {self.check_unit}"
             )
         if missing.any():
-            self.values["u2"] = np.where(missing, WATER * depth, pressure)
             self.remarks.append(
                 "rows without a pore pressure, which is taken as hydrostatic there:"
                 f" {missing.sum()}, the first at {depth[missing][0]:g} m"
@@ -410,16 +405,15 @@ class Readings:
         whether they were. given: the depth of the water (m), None if it is not known;
         ratio: the net area ratio a."""
         ratio = ratio if ratio and 0 < ratio <= 1 else AREA_RATIO
-        ratio = 1.0 if self.tip == "qt" else ratio
+        ratio = 1.0 if self.tip_name == "qt" else ratio
         water = WATER * given if given is not None else self.water_at_mudline(ratio)
         if not water:
             return False
-        tip, text = self.resistance - ratio * water, ""
+        tip, text = self.tip - ratio * water, ""
         if given is not None or np.mean(tip < -DRIFT) < FEW:
-            self.values[self.tip] = np.maximum(tip, 0.0)
+            self.tip = np.maximum(tip, 0.0)
             text = f" and {ratio * water / 1e3:.0f} kPa from q_c"
-        if "u2" in self.values:
-            self.values["u2"] = self.values["u2"] - water
+        self.pressure = self.pressure - water
         text = f"{water / 1e3:.0f} kPa is subtracted from u_2{text}"
         if given is None:
             text = (
@@ -435,13 +429,12 @@ class Readings:
         """Return the pressure of water (Pa) that u_2 has at the mudline, 0 where it has
         none. The excess of u_2 is u_0 and B_q times the net resistance, so that a line
         through the rows below the mudline has both."""
-        depth = self.depth
-        pressure = self.values.get("u2", np.full(len(depth), np.nan))
+        depth, pressure = self.depth, self.pressure
         known = np.isfinite(pressure)
         if depth[0] > START or known.sum() < ENOUGH * len(known):
             return 0.0
-        tip = self.resistance - WEIGHT * depth
-        tip = tip + (self.tip == "qc") * (1 - ratio) * pressure
+        tip = self.tip - WEIGHT * depth
+        tip = tip + (self.tip_name == "qc") * (1 - ratio) * pressure
         depth, tip = depth[known], tip[known]
         excess = pressure[known] - WATER * depth
         first = excess[depth <= START + FIRST]
@@ -449,7 +442,7 @@ class Readings:
             return 0.0
         near = depth <= 4 * START
         x, y = np.maximum(tip[near], 1.0), excess[near]
-        friction = self.values.get("fs", np.full(len(known), np.inf))[known][near]
+        friction = self.friction[known][near]
         friction = np.where(np.isnan(friction), np.inf, friction)
         is_sand = float(np.median(friction / np.maximum(x - y, 1.0))) < SMOOTH
         if np.median(y / x) < MOST_PRESSURE and not is_sand:
@@ -503,18 +496,16 @@ class Readings:
         if start <= START and not given:
             return 0.0, ""
         first = self.depth <= start + FIRST
-        tip = given.get("qc", float(np.median(self.resistance[first])))
+        tip = given.get("qc", float(np.median(self.tip[first])))
         spacing = max(float(np.median(np.diff(self.depth))), 0.02)
         depth = np.arange(0.0, start - spacing / 2, spacing)
-        new = {"depth": depth, self.tip: np.full_like(depth, tip)}
-        if "fs" in self.values:
-            share = self.values["fs"] / np.maximum(self.resistance, 1.0)
-            friction = given.get("fs", float(np.median(share[first])) * tip)
-            new["fs"] = np.full_like(depth, friction)
-        if "u2" in self.values:
-            new["u2"] = WATER * depth
-        for name, values in new.items():
-            self.values[name] = np.concatenate([values, self.values[name]])
+        share = float(np.median((self.friction / np.maximum(self.tip, 1.0))[first]))
+        friction = given.get("fs", share * tip) if np.isfinite(share) else np.nan
+        pressure = depth * (WATER if np.isfinite(self.pressure).all() else np.nan)
+        self.depth = np.append(depth, self.depth)
+        self.tip = np.append(np.full_like(depth, tip), self.tip)
+        self.friction = np.append(np.full_like(depth, friction), self.friction)
+        self.pressure = np.append(pressure, self.pressure)
         how, soil, way = GIVEN, "by --above", ""
         if not given:
             how, soil = ASSUMED, "as the first readings below it"
@@ -530,7 +521,7 @@ class Readings:
     def say_rest(self) -> None:
         """Refuse a test that is too weak for any soil, and say what is doubtful and
         what was not read."""
-        largest = float(self.resistance.max())
+        largest = float(self.tip.max())
         if largest < WEAKEST:
             raise InputError(
                 f"the largest cone resistance is {largest:g} Pa, less than any soil"
@@ -541,7 +532,7 @@ class Readings:
                 f"the largest cone resistance is only {largest / 1e3:g} kPa:"
                 f" {self.check_unit}"
             )
-        if self.tip == "qt":
+        if self.tip_name == "qt":
             self.remarks.append("the file has q_t and no q_c: it is taken for both")
         if self.table.facts.water is not None:
             self.remarks.append(
