@@ -102,19 +102,15 @@ def gef_keys(lines: Sequence[str]) -> tuple[Keys, int]:
     raise InputError("there is no line #EOH=, below which the table begins")
 
 
-def decimal_of(text: str) -> float:
-    """Return the number of a text that DECIMAL matches."""
-    return float(text.replace(",", "."))
-
-
-def gef_values(keys: Keys, key: str) -> list[tuple[int, re.Match[str]]]:
+def gef_values(keys: Keys, key: str) -> list[tuple[int, tuple[str, ...]]]:
     """Return the rows with a key, and the parts of its values. Raises InputError."""
-    pattern, what = GEF[key]
-    found = [(row, text, re.fullmatch(pattern, text)) for row, text in keys[key]]
-    for row, text, match in found:
+    (pattern, what), found = GEF[key], []
+    for row, text in keys[key]:
+        match = re.fullmatch(pattern, text)
         if not match:
             raise InputError(f"row {row}: #{key} must have {what}; it is {text!r}")
-    return [(row, match) for row, _, match in found if match]
+        found.append((row, match.groups("")))
+    return found
 
 
 def gef_facts(keys: Keys) -> Facts:
@@ -123,7 +119,7 @@ def gef_facts(keys: Keys) -> Facts:
     found: dict[str, float] = {}
     for _, text in keys["MEASUREMENTVAR"]:
         if match := re.match(rf"(\d+)\s*,\s*{DECIMAL}\s*(?:,([^,]*)|$)", text):
-            name, value = match[1], decimal_of(match[2])
+            name, value = match[1], float(match[2].replace(",", "."))
             factor = LENGTH.get(unit_in(match[3] or ""), 1.0)
             found[name] = abs(value) * factor if name == GEF_PREDRILLED else value
     return Facts(found.get(GEF_AREA_RATIO), found.get(GEF_PREDRILLED))
@@ -133,8 +129,8 @@ def gef_rows(lines: Sequence[str], keys: Keys, last: int) -> Rows:
     """Return the rows of the table, below the last line of the keys, with empty cells
     where a column has no value. Raises InputError."""
     voids = [
-        (int(match[1]) - 1, decimal_of(match[2]))
-        for _, match in gef_values(keys, "COLUMNVOID")
+        (int(number) - 1, float(void.replace(",", ".")))
+        for _, (number, void) in gef_values(keys, "COLUMNVOID")
     ]
     marks = {key: found[-1][1] for key, found in keys.items() if found}
     divider = marks.get("COLUMNSEPARATOR") or None
@@ -171,8 +167,7 @@ def gef(lines: Sequence[str], _: str) -> Table:
         Head(
             int(number) - 1, name.strip(), BY_GEF.get(int(what), ""), unit.strip(), row
         )
-        for row, match in gef_values(keys, "COLUMNINFO")
-        for number, unit, name, what in [match.groups("")]
+        for row, (number, unit, name, what) in gef_values(keys, "COLUMNINFO")
     ]
     if not heads:
         raise InputError("no line #COLUMNINFO says what a column is")

@@ -335,11 +335,10 @@ class Readings:
     def complete_friction(self) -> None:
         """Take a drift below 0 as 0, and where there is none the share of q_c of the
         rows next to it; refuse a friction in another unit than its column says."""
-        depth, friction = self.depth, self.completed("fs", self.friction)
-        known, tip = np.isfinite(friction), np.maximum(self.tip, 1.0)
-        self.friction = friction
-        if not known.any():
+        if not self.has_values("fs", "friction"):
             return
+        depth, friction, tip = self.depth, self.friction, np.maximum(self.tip, 1.0)
+        known = np.isfinite(friction)
         ratio = float(np.median(friction[known] / tip[known]))
         if ratio < SMOOTHEST:
             raise InputError(
@@ -363,25 +362,25 @@ class Readings:
         share = np.interp(depth, depth[known], (friction / tip)[known])
         self.friction = np.maximum(np.where(known, friction, share * tip), 0.0)
 
-    def completed(self, key: str, values: np.ndarray) -> np.ndarray:
-        """Return the values [n] of a column if they are enough to tell of the rows
-        without one, else nan, which is said."""
-        number, rows = int(np.isfinite(values).sum()), len(self.row)
+    def has_values(self, key: str, name: str) -> bool:
+        """Return whether an array has values in enough rows to tell of the others; one
+        that has not becomes nan, which is said."""
+        number, rows = int(np.isfinite(getattr(self, name)).sum()), len(self.row)
         if number >= ENOUGH * rows:
-            return values
+            return True
         if number or key in self.columns:
             some = f"values in only {number} of {rows} rows" if number else "no values"
             self.remarks.append(f"the column of {QUANTITIES[key].name} has {some}")
-        return np.full(rows, np.nan)
+        setattr(self, name, np.full(rows, np.nan))
+        return False
 
     def complete_pressure(self) -> None:
         """Take the pore pressure as hydrostatic where there is none."""
-        depth, pressure = self.depth, self.completed("u2", self.pressure)
+        if not self.has_values("u2", "pressure"):
+            return
+        depth, pressure = self.depth, self.pressure
         missing = np.isnan(pressure)
         self.pressure = np.where(missing, WATER * depth, pressure)
-        if missing.all():
-            self.pressure = pressure
-            return
         ratio = np.abs(pressure[~missing]) / (WATER * np.maximum(depth[~missing], 0.1))
         if np.median(ratio) < DRY:
             self.remarks.append(

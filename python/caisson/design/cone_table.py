@@ -202,17 +202,6 @@ def column_cells(rows: Rows, place: int) -> list[str]:
     return [cell_of(cells, place) for _, cells in rows]
 
 
-def check_unit(head: Head) -> None:
-    """Refuse a column in a unit that is not known. Raises InputError."""
-    if head.factor is None:
-        quantity = QUANTITIES[head.quantity]
-        known = "m, cm, mm or ft" if quantity.units is LENGTH else STRESSES
-        raise InputError(
-            f"row {head.row}: the column {head.text!r}, the {quantity.name}, has no"
-            f" unit that is known, but {head.unit or 'none'!r}; write one of {known}"
-        )
-
-
 def columns_of(table: Table, wanted: Sequence[str]) -> dict[str, Head]:
     """Return the columns of the quantities that are wanted and there. A quantity
     without values in most rows gives way to the one that may stand for it. Raises
@@ -248,7 +237,14 @@ def columns_of(table: Table, wanted: Sequence[str]) -> dict[str, Head]:
                 f"no column is the {QUANTITIES[name].name}; {table.advice}"
             )
         for head in some[:1]:  # others are the same, as beside results
-            check_unit(head)
+            quantity = QUANTITIES[head.quantity]
+            if head.factor is None:
+                known = "m, cm, mm or ft" if quantity.units is LENGTH else STRESSES
+                raise InputError(
+                    f"row {head.row}: the column {head.text!r}, the {quantity.name},"
+                    f" has no unit that is known, but {head.unit or 'none'!r}; write"
+                    f" one of {known}"
+                )
             found[head.quantity] = head
     rods = [h for h in table.heads if h.quantity == "rods" and h.factor is not None]
     if rods and "depth" in found:  # it checks a corrected depth
