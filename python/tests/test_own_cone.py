@@ -70,7 +70,7 @@ class Layers(unittest.TestCase):
             path.write_text(HEAD + text, encoding="utf-8")
             found = interpretation.interpret(path, how, deepest)
         (e,) = found.layers
-        own = answer_of(found.ground, e, found.names)
+        own = answer_of(found.ground, e)
         self.assertAlmostEqual(own, answer, delta=0.02)
         return e
 

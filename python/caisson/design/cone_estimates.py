@@ -86,12 +86,12 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Estimates:
-    """A layer with the estimates of its parameters by name; deepest: the depth (m) of
-    the last row that counts for the density of sand."""
+    """A layer with the estimates of its parameters by name, and the rows [n] that count
+    for the density of sand."""
 
     layer: Layer
     values: Mapping[str, Estimate]
-    deepest: float = inf
+    rows: np.ndarray
 
     def porosity(self) -> float:
         """Return the porosity at which water and quartz have the unit weight."""
@@ -179,11 +179,11 @@ OF_CONE = (DENSITY, REFERENCE)  # answer the cone together
 
 
 def rows_of(
-    ground: Ground, layer: Layer, name: str, names: dict[str, str], deepest: float
+    ground: Ground, layer: Layer, names: dict[str, str], deepest: float
 ) -> np.ndarray:
-    """Return which rows [n] of a layer count for a parameter: for the density of sand
-    those down to the deepest (m), where a cone is deep."""
-    if names[DENSITY] != correlations.OWN_CONE or name not in OF_CONE:
+    """Return which rows [n] of a layer count for the density of sand: those down to the
+    deepest (m), where a cone is deep, if it answers the cone."""
+    if names[DENSITY] != correlations.OWN_CONE:
         return layer.rows
     deep = layer.rows & own_cone.is_deep(ground.depth)
     near = deep & (ground.depth <= deepest)
@@ -210,7 +210,7 @@ def estimates_of(
     }
     found = []
     for layer in layers:
-        values = {}
+        values, of_density = {}, rows_of(ground, layer, names, deepest)
         for name, column in measured.items():
             column = column[layer.rows]
             values[name] = combined(column, column, column, ANY)
@@ -218,34 +218,31 @@ def estimates_of(
         slope = growth_in(ground, layer, strength) if layer.kind == CLAY else 0.0
         for name in HAS[layer.kind]:
             growth = slope if name in OF_STRENGTH else 0.0
-            rows = rows_of(ground, layer, name, names, deepest)
+            rows = of_density if name in OF_CONE else layer.rows
             share = along(ground, layer, growth)[rows]
             low, best, high = [x[rows] / share for x in every[layer.kind, name]]
             found_here = combined(best, low, high, LIMITS.get(name, ANY))
             values[name] = replace(found_here, growth=growth)
-        found.append(Estimates(layer, values, deepest))
+        found.append(Estimates(layer, values, of_density))
     return found
 
 
 def is_answered(ground: Ground, e: Estimates, names: dict[str, str]) -> bool:
     """Return whether the density of a layer of sand answers rows of its cone."""
-    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
     is_own = e.layer.kind == SAND and names[DENSITY] == correlations.OWN_CONE
-    return is_own and bool(own_cone.is_deep(ground.depth[rows]).any())
+    return is_own and bool(own_cone.is_deep(ground.depth[e.rows]).any())
 
 
-def answer_of(ground: Ground, e: Estimates, names: dict[str, str]) -> float:
+def answer_of(ground: Ground, e: Estimates) -> float:
     """Return the resistance that a computed cone meets in a layer of sand over the
     measured one, in the middle of the rows that count."""
-    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
     density, modulus = (e.values[name].best for name in OF_CONE)
     ratio = modulus / correlations.reference_modulus(density)
-    stress = mean_stress_of(ground, e, names)
-    found = own_cone.computed(density, stress, ratio) / ground.resistance[rows]
-    return float(np.median(found))
+    found = own_cone.computed(density, mean_stress_of(ground, e), ratio)
+    return float(np.median(found / ground.resistance[e.rows]))
 
 
-def mean_stress_of(ground: Ground, e: Estimates, names: dict[str, str]) -> np.ndarray:
+def mean_stress_of(ground: Ground, e: Estimates) -> np.ndarray:
     """Return the mean effective stress (Pa) at the rows that count [n]."""
-    rows = rows_of(ground, e.layer, DENSITY, names, e.deepest)
-    return np.asarray(ground.stress[rows] * (1 + 2 * e.values[K0].best) / 3)
+    k0 = np.full(len(ground.depth), e.values[K0].best)
+    return correlations.mean_stress(ground, k0)[e.rows]

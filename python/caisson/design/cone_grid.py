@@ -9,7 +9,7 @@ are empty or begin with "#" are left out, but count.
 """
 import csv
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from caisson.disk import InputError
 from caisson.terminal import printable
 from caisson.design.cone_options import EXAMPLE
 from caisson.design.cone_table import Facts, Head, Rows, Table, cell_of
-from caisson.design.cone_table import is_number, refuse, table_of
+from caisson.design.cone_table import is_number, naming, refuse
 from caisson.design.cone_words import EVERY_UNIT, QUANTITIES
 from caisson.design.cone_words import fact_of, head_of, is_level, unit_in
 
@@ -76,13 +76,18 @@ def grid_of_text(lines: Sequence[str]) -> tuple[Rows, str | None]:
     return [(row, divided(line, divider)) for row, line in kept], divider
 
 
-def rows_of(sheet: Any, path: Path) -> Rows:
-    """Return the rows of a sheet that are not empty, without the empty cells at their
-    ends. Cells far from all others, which are blanks by mistake, are not read. Raises
-    InputError where there are too many."""
-    found, number = Rows(), 0
+def sheet_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
+    """Return the values of the rows of a sheet. Cells far from all others, which are
+    blanks by mistake, are not read."""
     most = {"max_row": MOST_ROWS + 1, "max_col": MOST_COLUMNS}
-    for row, values in enumerate(sheet.iter_rows(values_only=True, **most), 1):
+    return iter(sheet.iter_rows(values_only=True, **most))
+
+
+def rows_of(sheet: Any) -> Rows:
+    """Return the rows of a sheet as texts, without the empty cells at their ends.
+    Raises InputError where there are too many."""
+    found, number = Rows(), 0
+    for row, values in enumerate(sheet_rows(sheet), 1):
         if values.count(None) == len(values):
             continue
         cells = [
@@ -93,16 +98,14 @@ def rows_of(sheet: Any, path: Path) -> Rows:
         number += len(cells)
         if cells and row > MOST_ROWS or number > MOST_CELLS:
             raise InputError(
-                f"{path}: the sheet {printable(sheet.title)} has more than {MOST_ROWS}"
-                f" rows or {MOST_CELLS} cells; save what counts as CSV"
+                f"the sheet {printable(sheet.title)} has more than {MOST_ROWS} rows or"
+                f" {MOST_CELLS} cells; save what counts as CSV"
             )
         if cells:
             found.append((row, cells))
     if found and all(len(cells) == 1 for _, cells in found):  # as lines of a text
-        lines = [""] * found[-1][0]
-        for row, cells in found:
-            lines[row - 1] = cells[0]
-        grid = grid_of_text(lines)[0]
+        lines = {row: cells[0] for row, cells in found}
+        grid = grid_of_text([lines.get(i, "") for i in range(1, found[-1][0] + 1)])[0]
         if sum(numeric(cells) > 0 for _, cells in grid) > len(grid) / 2:
             return grid
     return found
@@ -112,9 +115,8 @@ def first_without_value(values: Any, formulas: Any) -> int:
     """Return the first row of a sheet with a formula where no formula has a stored
     value, else 0. formulas: the same sheet, read with them."""
     found = 0
-    most = {"max_row": MOST_ROWS, "max_col": MOST_COLUMNS}
-    sheets = (x.iter_rows(values_only=True, **most) for x in (values, formulas))
-    for row, (stored, written) in enumerate(zip(*sheets), 1):
+    rows = zip(sheet_rows(values), sheet_rows(formulas))
+    for row, (stored, written) in enumerate(rows, 1):
         if written.count(None) == len(written):
             continue
         for value, text in zip(stored, written):
@@ -127,78 +129,71 @@ def first_without_value(values: Any, formulas: Any) -> int:
 
 def check_size(path: Path) -> None:
     """Refuse a workbook that unpacks to more than any log has. Raises InputError."""
-    with zipfile.ZipFile(path) as archive:
-        size = sum(part.file_size for part in archive.infolist() if is_cells(part))
-    if size > MOST_BYTES:
+    with zipfile.ZipFile(path) as archive:  # all but pictures
+        parts = [
+            x for x in archive.infolist() if x.filename.endswith((".xml", ".rels"))
+        ]
+    if (size := sum(part.file_size for part in parts)) > MOST_BYTES:
         raise InputError(
-            f"{path}: the sheets of the workbook unpack to {size / 1e6:.0f} MB, and at"
-            f" most {MOST_BYTES / 1e6:.0f} MB are read; save what counts as CSV"
+            f"the sheets of the workbook unpack to {size / 1e6:.0f} MB, and at most"
+            f" {MOST_BYTES / 1e6:.0f} MB are read; save what counts as CSV"
         )
-
-
-def is_cells(part: zipfile.ZipInfo) -> bool:
-    """Return whether a part of a workbook is read: it is no picture."""
-    return part.filename.endswith((".xml", ".rels"))
 
 
 def grid_of_workbook(path: Path, sheet: str, has_names: bool) -> Rows:
     """Return the rows of a sheet, "" for the only one that has the heads of a test, or
     of numbers if the columns have names. Raises InputError."""
-    try:
-        import openpyxl  # which no other file needs
-    except ModuleNotFoundError as error:
-        raise InputError(
-            f"{path}: a workbook needs openpyxl: apt-get install python3-openpyxl, or"
-            " save the sheet as CSV"
-        ) from error
-    try:
-        check_size(path)
-        with path.open("rb") as file:  # its name may end as it likes
-            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
-            names = [name for name in book.sheetnames if sheet in ("", name)]
-            sheets = {name: rows_of(book[name], path) for name in names}
-            name = chosen_of(path, sheets, sheet, book.sheetnames, has_names)
-            formulas = openpyxl.load_workbook(file, read_only=True)
-            empty = first_without_value(book[name], formulas[name])
-    except InputError:
-        raise
-    except Exception as error:  # openpyxl hands on whatever its parts raise
-        raise InputError(
-            f"{path} is no workbook that can be read (.xlsx), but another archive or a"
-            " damaged one: save it as .xlsx, or as CSV in UTF-8"
-        ) from error
-    if empty:
-        raise InputError(
-            f"{path}, row {empty} of sheet {printable(name)}: a formula without a"
-            " stored value; open the workbook in a spreadsheet program and save it"
-        )
+    with naming(path):
+        try:
+            import openpyxl  # which no other file needs
+
+            check_size(path)
+            with path.open("rb") as file:  # its name may end as it likes
+                book = openpyxl.load_workbook(file, read_only=True, data_only=True)
+                names = [name for name in book.sheetnames if sheet in ("", name)]
+                sheets = {name: rows_of(book[name]) for name in names}
+                name = chosen_of(sheets, sheet, book.sheetnames, has_names)
+                formulas = openpyxl.load_workbook(file, read_only=True)
+                empty = first_without_value(book[name], formulas[name])
+        except InputError:
+            raise
+        except ModuleNotFoundError as error:
+            raise InputError(
+                "a workbook needs openpyxl: apt-get install python3-openpyxl, or save"
+                " the sheet as CSV"
+            ) from error
+        except Exception as error:  # openpyxl hands on whatever its parts raise
+            raise InputError(
+                "this is no workbook that can be read (.xlsx), but another archive or a"
+                " damaged one: save it as .xlsx, or as CSV in UTF-8"
+            ) from error
+        if empty:
+            raise InputError(
+                f"row {empty} of sheet {printable(name)}: a formula without a stored"
+                " value; open the workbook in a spreadsheet program and save it"
+            )
     return sheets[name]
 
 
 def chosen_of(
-    path: Path,
-    sheets: Mapping[str, Rows],
-    sheet: str,
-    names: Sequence[str],
-    has_names: bool,
+    sheets: Mapping[str, Rows], sheet: str, names: Sequence[str], has_names: bool
 ) -> str:
     """Return the name of the sheet that is read. sheet: the one wanted, "" for any;
     names: of all sheets. Raises InputError where there is none, or a choice."""
     every = list(map(printable, names))
     if sheet and not sheets:
         raise InputError(
-            f"{path} has no sheet {sheet!r}; the sheets are {', '.join(every)}"
+            f"there is no sheet {sheet!r}; the sheets are {', '.join(every)}"
         )
-    there = {name: rows for name, rows in sheets.items() if rows}
-    known = {n: rows for n, rows in there.items() if heads_in(rows) is not None}
+    there = [name for name, rows in sheets.items() if rows]
+    known = [name for name in there if heads_in(sheets[name]) is not None]
     some = known if known and not has_names else there
     if len(some) != 1:
         words = ", ".join(list(map(printable, some)) or every)
         raise InputError(
-            f"{path}: {len(some)} sheets may be the test, {words}; choose one by"
-            " --sheet"
+            f"{len(some)} sheets may be the test, {words}; choose one by --sheet"
         )
-    return next(iter(some))
+    return some[0]
 
 
 def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Head]:
@@ -207,8 +202,9 @@ def with_units(row: int, texts: Sequence[str], below: Sequence[str]) -> list[Hea
     found = []
     for place, text in enumerate(texts):
         quantity, unit = head_of(text)
-        if unit_in(unit) not in EVERY_UNIT and place < len(below):
-            unit = below[place] if unit_in(below[place]) in EVERY_UNIT else unit
+        under = below[place] if place < len(below) else ""
+        if unit_in(unit) not in EVERY_UNIT and unit_in(under) in EVERY_UNIT:
+            unit = under
         found.append(Head(place, text.strip(), quantity, unit, row))
     return found
 
@@ -223,7 +219,7 @@ def heads_in(rows: Rows) -> int | None:
     return None
 
 
-def named(path: Path, columns: str) -> list[Head]:
+def named(columns: str) -> list[Head]:
     """Return the heads that --columns gives, of a file without. Raises InputError."""
     found = []
     for place, text in enumerate(columns.replace(";", ",").split(",")):
@@ -242,97 +238,86 @@ def named(path: Path, columns: str) -> list[Head]:
 def facts_of(above: Rows) -> tuple[Facts, list[str]]:
     """Return what the lines above the heads say, and in words what was made of it."""
     said: dict[str, set[float]] = {}
+    texts = []
     for _, cells in above:
         if fact := fact_of(cells):
             said.setdefault(fact[0], set()).add(fact[1])
-    known = {fact: values.pop() for fact, values in said.items() if len(values) == 1}
+        else:
+            texts.append(" ".join(" ".join(cells).split())[:40])
+    known = {x.replace(" ", "_"): v.pop() for x, v in said.items() if len(v) == 1}
     unsure = [
         f"the lines above the heads have two values: {x}" for x in said if said[x]
     ]
-    texts = [" ".join(" ".join(c).split()) for _, c in above if fact_of(c) is None]
     if texts:
-        words = "; ".join(text[:40] for text in texts[:4])
+        words = "; ".join(texts[:4] + ["..."] * (len(texts) > 4))
         unsure.append(
             f"lines above the heads that were not read: {len(texts)}: {words}"
-            + ("; ..." if len(texts) > 4 else "")
         )
-    return (
-        Facts(known.get("area ratio"), known.get("predrilled"), known.get("water")),
-        unsure,
-    )
+    return Facts(**known), unsure
 
 
-def without_heads(path: Path, rows: Rows) -> InputError:
+def without_heads(rows: Rows) -> InputError:
     """Return the refusal of a file whose heads are not known."""
     for row, cells in rows[:SAMPLE]:
         for text in cells:
             if is_level(text) and not fact_of(cells):
                 return InputError(
-                    f"{path}, row {row}: the column {text.strip()!r} is a level above a"
-                    " datum; subtract it from the level of the ground, and name the"
-                    " column depth_m"
+                    f"row {row}: the column {text.strip()!r} is a level above a datum;"
+                    " subtract it from the level of the ground, and name the column"
+                    " depth_m"
                 )
     row, cells = rows[0]
     return InputError(
-        f"{path}: no row names a column of depth and one of cone resistance, as"
-        f" {EXAMPLE} or in one of twelve languages; row {row} is"
-        f" {', '.join(cells)[:60]!r}. Name the columns: --columns {EXAMPLE}, with - for"
-        " one that is not to be read"
+        f"no row names a column of depth and one of cone resistance, as {EXAMPLE} or in"
+        f" one of twelve languages; row {row} is {', '.join(cells)[:60]!r}. Name the"
+        f" columns: --columns {EXAMPLE}, with - for one that is not to be read"
     )
 
 
-def with_meters(heads: Sequence[Head]) -> tuple[list[Head], list[str]]:
-    """Return the heads, depths without a unit in m, and in words that this is so."""
-    lengths = [h for h in heads if h.quantity in ("depth", "rods") and not h.unit]
-    found = [h._replace(unit="m") if h in lengths else h for h in heads]
-    return found, [f"ASSUMED: {head.text!r} is in m" for head in lengths]
-
-
-def refuse_wide(path: Path, rows: Rows, number: int, divider: str | None) -> None:
+def refuse_wide(rows: Rows, number: int, divider: str | None) -> None:
     """Refuse rows with more cells than heads, as decimal commas make them. Raises
     InputError."""
     advice = "each column needs a head"
     if divider == ",":
         advice = "where numbers have commas, divide cells by semicolons"
-    wrong = [
-        (row, f"{len(cells)} cells, and {number} columns; {advice}")
-        for row, cells in rows
-        if any(cell_of(cells, i) for i in range(number, len(cells)))
-    ]
-    refuse(path, wrong)
+    refuse(
+        [
+            (row, f"{len(cells)} cells, and {number} columns; {advice}")
+            for row, cells in rows
+            if any(cell_of(cells, i) for i in range(number, len(cells)))
+        ]
+    )
 
 
-def table(
-    path: Path, rows: Rows, divider: str | None, wanted: Sequence[str], columns: str
-) -> Table:
+def table(rows: Rows, divider: str | None, columns: str) -> Table:
     """Return the table of a test in rows of cells. columns: their names and units in
     place of the heads. Raises InputError."""
     if len(rows) < 2:
         raise InputError(
-            f"{path}: a cone test needs a row of heads, as {EXAMPLE}, and two rows of"
-            " numbers"
+            f"a cone test needs a row of heads, as {EXAMPLE}, and two rows of numbers"
         )
     place = heads_in(rows)
-    first = next((i for i, (_, c) in enumerate(rows) if numeric(c)), len(rows))
     if columns:
-        heads, begin, where = named(path, columns), first, "--columns"
+        heads, where = named(columns), "--columns"
+        begin = next((i for i, (_, x) in enumerate(rows) if numeric(x)), len(rows))
+        above = rows[:begin]
     elif place is None:
-        raise without_heads(path, rows)
+        raise without_heads(rows)
     else:
-        row, texts = rows[place]
-        below = rows[place + 1][1] if place + 1 < len(rows) else []
-        heads, begin, where = with_units(row, texts, below), place + 1, "the heads"
+        (row, texts), (_, below) = rows[place], (rows[place + 1 :] or [(0, [])])[0]
+        heads, where = with_units(row, texts, below), "the heads"
         units = [cell for cell in below if unit_in(cell) in EVERY_UNIT]
-        begin += bool(units) and not any(map(is_number, below))
-    refuse_wide(path, rows[begin:], len(heads), divider)
-    names = f"heads that are read are {EXAMPLE} and their like"
-    heads, said = with_meters(heads)
-    found = table_of(path, heads, rows[begin:], wanted, where, names)
-    found.facts, found.remarks = facts_of(rows[: begin if columns else place])
-    found.remarks += said
-    if columns and not all(head_of(c.text)[1] for c in found.columns.values()):
-        found.remarks.append(
+        begin = place + 1 + (bool(units) and not any(map(is_number, below)))
+        above = rows[:place]
+    refuse_wide(rows[begin:], len(heads), divider)
+    lengths = [h for h in heads if h.quantity in ("depth", "rods") and not h.unit]
+    heads = [h._replace(unit="m") if h in lengths else h for h in heads]
+    facts, said = facts_of(above)
+    said += [f"ASSUMED: {head.text!r} is in m" for head in lengths]
+    if columns and not all(head_of(h.text)[1] for h in heads if h.quantity):
+        said.append(
             "ASSUMED: units of --columns that has none: m, q_c in MPa, f_s and u_2 in"
             " kPa"
         )
-    return found
+    advice = f"heads that are read are {EXAMPLE} and their like"
+    return Table(heads, rows[begin:], where, advice, facts, said)

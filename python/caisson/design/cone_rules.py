@@ -8,14 +8,14 @@ borehole, the soil is that which the user gives, or is ASSUMED to be that of the
 readings.
 """
 import re
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from caisson.disk import InputError
 from caisson.units import WATER
-from caisson.design.cone_table import Table, cell_of, more
+from caisson.design.cone_table import Table, column_cells, columns_of, numbers_of
+from caisson.design.cone_table import refuse
 from caisson.design.cone_words import QUANTITIES
 
 # Pa; more and less than any test has
@@ -51,117 +51,119 @@ EDGE = 0.005  # m; a corrected depth may be less than the length, a hole's depth
 DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
 
 
-def rows_text(rows: np.ndarray) -> str:
-    """Return the numbers of rows for a remark."""
-    text = ", ".join(map(str, rows[:5]))
-    return f"{len(rows)}, those of number {text}{', ...' if len(rows) > 5 else ''}"
-
-
 class Readings:
-    """The rows of a test: the number of each in the file, its values by quantity in m
-    and Pa (nan for none) and the number of its push, [n] each; and remarks on what was
-    made of them. Each rule changes or refuses them, by InputError."""
+    """The rows of a test, [n] each: the number of each in the file, the name of its
+    push, depth and length of the rods (m), cone resistance, sleeve friction and pore
+    pressure (Pa), and friction ratio, nan for none; and remarks on what was made of
+    them. Each rule changes or refuses them, by InputError."""
 
-    def __init__(
-        self,
-        path: Path,
-        table: Table,
-        row: np.ndarray,
-        values: dict[str, np.ndarray],
-        push: np.ndarray,
-    ) -> None:
-        self.path, self.table, self.row = path, table, row
-        self.values, self.push = values, push
-        self.tip = "qt" if "qt" in values else "qc"
+    ARRAYS = "row push depth rods tip friction pressure ratio".split()
+
+    def __init__(self, table: Table, wanted: Sequence[str]) -> None:
+        """wanted: the quantities that are read."""
+        self.table, self.wanted = table, wanted
+        self.columns = columns_of(table, wanted)
+        self.row, values, self.push = numbers_of(table, self.columns)
+        none = np.full(len(self.row), np.nan)
+        self.rods = values.get("rods", none)
+        self.depth = values.get("depth", self.rods)
+        self.tip_name = "qt" if "qt" in values else "qc"
+        self.tip, self.friction = values[self.tip_name], values.get("fs", none)
+        self.pressure, self.ratio = values.get("u2", none), values.get("rf", none)
         self.remarks = list(table.remarks)
+        self.check_unit = f"check the unit in {table.units_are}"
 
     def keep(self, rows: np.ndarray) -> None:
         """Keep some rows, or all in another order."""
-        self.row, self.push = self.row[rows], self.push[rows]
-        self.values = {name: values[rows] for name, values in self.values.items()}
+        for name in self.ARRAYS:
+            setattr(self, name, getattr(self, name)[rows])
+
+    def say(self, rows: np.ndarray, what: str, why: str = "") -> None:
+        """Remark on rows [n]: what they are, how many, and why."""
+        some = self.row[rows]
+        text = ", ".join(map(str, some[:5])) + (", ..." if len(some) > 5 else "")
+        self.remarks.append(f"{what}: {len(some)}, those of number {text}{why}")
 
     def leave_out(self, rows: np.ndarray, what: str) -> None:
         """Leave out rows [n], and say what they are."""
         if rows.any():
-            self.remarks.append(f"{what}, left out: {rows_text(self.row[rows])}")
+            self.say(rows, f"{what}, left out")
             self.keep(~rows)
         if len(self.row) < 2:
             raise InputError(
-                f"{self.path}: a cone test needs two rows with a depth and a cone"
-                f" resistance; there are {len(self.row)}. {self.remarks[-1]}"
+                "a cone test needs two rows with a depth and a cone resistance; there"
+                f" are {len(self.row)}. {self.remarks[-1]}"
             )
 
     def refuse(self, rows: np.ndarray, why: Callable[[int], str]) -> None:
         """Refuse the test if some rows [n] are wrong; why: of one."""
-        places = np.flatnonzero(rows)
-        if len(places):
-            others = more([(int(self.row[i]), "") for i in places[1:]])
-            row = self.row[places[0]]
-            raise InputError(f"{self.path}, row {row}: {why(places[0])}{others}")
+        refuse([(int(self.row[i]), why(i)) for i in np.flatnonzero(rows)])
 
-    def check_units(self) -> None:
+    def refuse_thousands(self) -> None:
         """Refuse cone resistances that are thousands with separators, which would be
         read as decimals."""
-        column = self.table.columns[self.tip]
-        texts = [cell_of(cells, column.place) for _, cells in self.table.rows]
+        column = self.columns[self.tip_name]
+        texts = column_cells(self.table.rows, column.place)
         there = [text for text in texts if re.search("[.,]", text)]
-        if column.unit >= 1e6 or not all(map(THOUSANDS.fullmatch, there)) or not there:
+        factor = column.factor or 1.0
+        if factor >= 1e6 or not there or not all(map(THOUSANDS.fullmatch, there)):
             return
         has_hundreds = any(re.fullmatch(r"\d{3}", text) for text in texts)
-        most = max(float(text.replace(",", ".")) for text in there) * column.unit
-        largest = float(np.nanmax(self.values[self.tip]))
+        most = max(float(text.replace(",", ".")) for text in there) * factor
+        largest = float(np.nanmax(self.tip))
         if most < WEAK and (largest < WEAK or has_hundreds):
             row, text = self.table.rows[texts.index(there[0])][0], there[0]
             raise InputError(
-                f"{self.path}, row {row}: the cone resistance {text!r} seems to have a"
-                " separator of thousands, with which the largest one is"
-                f" {largest / 1e3:g} kPa: write {re.sub('[.,]', '', text)}; if decimals"
-                " are meant, write the column in MPa. The unit is that in"
-                f" {self.table.units_are}"
+                f"row {row}: the cone resistance {text!r} seems to have a separator of"
+                f" thousands, with which the largest one is {largest / 1e3:g} kPa:"
+                f" write {re.sub('[.,]', '', text)}; if decimals are meant, write the"
+                f" column in MPa. The unit is that in {self.table.units_are}"
             )
 
     def make_depths(self) -> None:
         """Take depths that are negative by their amount, and of a corrected depth and a
         length the first if they agree; leave out rows without a depth or q_c."""
-        for name in ("depth", "rods"):
-            if name in self.values:
-                self.values[name] = self.downward(self.values[name])
-        rods = self.values.pop("rods", None)
-        depth = self.values.get("depth", rods)
-        assert depth is not None
-        if rods is not None and "depth" in self.values:
-            far = np.abs(depth - rods) > DISAGREE + 0.1 * np.abs(rods)
-            both = np.isfinite(depth + rods)
-            if both.any() and np.mean(far[both]) > 0.5:
-                self.remarks.append(
-                    f"the column {self.table.columns['depth'].text!r} is no depth of"
-                    " this test; the penetration length is taken"
-                )
-                depth = rods
-            elif (short := np.isnan(depth) & np.isfinite(rods)).any() and both.any():
-                order = np.flatnonzero(both)[np.argsort(rods[both])]
-                shift = np.interp(rods, rods[order], (depth - rods)[order])
-                depth = np.where(short, rods + shift, depth)
-                self.remarks.append(
-                    "rows without a corrected depth, which follows from the"
-                    f" penetration length: {rows_text(self.row[short])}"
-                )
-        self.values["depth"] = depth
-        empty = np.isnan(depth) | np.isnan(self.values[self.tip])
+        self.depth, self.rods = self.downward(self.depth), self.downward(self.rods)
+        self.depth = self.corrected()
+        empty = np.isnan(self.depth) | np.isnan(self.tip)
         self.leave_out(empty, "rows without a depth or a cone resistance")
         self.refuse(
-            self.values["depth"] > DEEPEST,
-            lambda i: f"a depth of {self.values['depth'][i]:g} m is no length in meters"
-            " of a cone test",
+            self.depth > DEEPEST,
+            lambda i: f"a depth of {self.depth[i]:g} m is no length in meters of a cone"
+            " test",
         )
-        below = self.values["depth"] < 0
-        if np.mean(below) < FEW:
-            self.leave_out(below, "rows above the ground")
+        if np.mean(self.depth < 0) < FEW:
+            self.leave_out(self.depth < 0, "rows above the ground")
         self.refuse(
-            self.values["depth"] < 0,
-            lambda i: f"a depth of {self.values['depth'][i]:g} m; depths must all be"
-            " positive downward from the mudline, or all negative",
+            self.depth < 0,
+            lambda i: f"a depth of {self.depth[i]:g} m; depths must all be positive"
+            " downward from the mudline, or all negative",
         )
+
+    def corrected(self) -> np.ndarray:
+        """Return depths [n]: those that are corrected, or the length of the rods where
+        most do not agree with it; where there is none, it follows from the length."""
+        depth, rods = self.depth, self.rods
+        both, short = np.isfinite(depth + rods), np.isnan(depth) & np.isfinite(rods)
+        if not both.any():
+            return depth
+        shift = (depth - rods)[both]
+        if np.mean(np.abs(shift) > DISAGREE + 0.1 * np.abs(rods[both])) > 0.5:
+            self.remarks.append(
+                f"the column {self.columns['depth'].text!r} is no depth of this"
+                " test; the penetration length is taken"
+            )
+            return rods
+        if short.any():
+            self.say(
+                short,
+                "rows without a corrected depth, which follows from the penetration"
+                " length",
+            )
+            order = np.argsort(rods[both])
+            shift = np.interp(rods, rods[both][order], shift[order])
+            depth = np.where(short, rods + shift, depth)
+        return depth
 
     def downward(self, depth: np.ndarray) -> np.ndarray:
         """Return depths [n] by their amount if all are negative and fall."""
@@ -173,105 +175,95 @@ class Readings:
 
     def turn_round(self) -> None:
         """Begin at the top where the deepest row comes first."""
-        steps = np.diff(self.values["depth"])
-        if self.table.is_sorted and not self.table.pushes and (steps <= 0).all():
-            if steps.any() and len(steps) > 1:
-                self.remarks.append("the deepest row comes first: turned round")
-                self.keep(np.arange(len(self.row))[::-1])
+        steps = np.diff(self.depth)
+        is_other = self.table.is_register or self.table.pushes or len(steps) < 2
+        if not is_other and (steps <= 0).all() and steps.any():
+            self.remarks.append("the deepest row comes first: turned round")
+            self.keep(np.arange(len(self.row))[::-1])
 
     def make_friction(self) -> None:
         """Take the sleeve friction from the friction ratio where there is none."""
-        ratio = self.values.pop("rf", np.full(len(self.row), np.nan))
-        friction = self.values.get("fs", np.full(len(self.row), np.nan))
-        rows = np.isnan(friction) & np.isfinite(ratio)
+        rows = np.isnan(self.friction) & np.isfinite(self.ratio)
         if rows.any():
-            tip = np.maximum(self.values[self.tip], 0.0)
-            self.values["fs"] = np.where(rows, ratio * tip, friction)
-            text = f"{self.table.columns['rf'].text!r}, f_s = R_f q_c / 100"
+            found = self.ratio * np.maximum(self.tip, 0.0)
+            self.friction = np.where(rows, found, self.friction)
+            text = f"{self.columns['rf'].text!r}, f_s = R_f q_c / 100"
             self.remarks.append(f"sleeve friction: from {text}, in {rows.sum()} rows")
 
     def join_pushes(self) -> None:
         """Put the pushes of a borehole below each other, without the rows in which the
         cone takes load; rows that have no order are sorted."""
-        if not self.table.is_sorted:
-            self.keep(np.argsort(self.values["depth"], kind="stable"))
-        depth, numbers = self.values["depth"], np.unique(self.push)
-        if len(numbers) < 2:
+        if self.table.is_register:
+            self.keep(np.argsort(self.depth, kind="stable"))
+        depth, push = self.depth, self.push
+        every = [(depth[push == name], name) for name in np.unique(push)]
+        ends = sorted((z.min(), z.max(), name) for z, name in every)
+        if len(ends) < 2:
             return
-        names = list(dict.fromkeys(self.table.pushes))
-        ends = {
-            i: (depth[self.push == i].min(), depth[self.push == i].max())
-            for i in numbers
-        }
-        order = sorted(numbers, key=lambda i: ends[i])
-        drop = np.zeros(len(depth), dtype=bool)
-        for this in order:
-            top, bottom = ends[this]
-            if top > START or this != order[0]:
-                loaded = top + min(LOAD, (bottom - top) / 2)
-                drop |= (self.push == this) & (depth < loaded)
-        end = ends[order[0]][1]
-        for before, this in zip(order, order[1:]):
-            top, bottom = ends[this]
+        drop, end, before = np.zeros(len(depth), dtype=bool), -np.inf, ""
+        for top, bottom, name in ends:
             if end - top >= min(START, 0.5 * (bottom - top)):
                 raise InputError(
-                    f"{self.path}: the pushes {names[before]} and {names[this]} overlap"
-                    f" from {top:g} to {min(end, bottom):g} m: choose one by"
-                    f" --location, as in --location {names[this]!r}"
+                    f"the pushes {before} and {name} overlap from {top:g} to"
+                    f" {min(end, bottom):g} m: choose one by --location, as in"
+                    f" --location {str(name)!r}"
                 )
-            drop |= (self.push == this) & (depth <= end)
-            end = max(end, bottom)
-        self.remarks.append(f"{len(order)} pushes were joined")
+            drop |= (push == name) & (depth <= end)
+            if top > START or before:
+                loaded = top + min(LOAD, (bottom - top) / 2)
+                drop |= (push == name) & (depth < loaded)
+            end, before = max(end, bottom), name
+        self.remarks.append(f"{len(ends)} pushes were joined")
         self.leave_out(
             drop,
             "rows of a push that the one above it has reached, or in which the cone"
             f" takes load, its first {LOAD:g} m",
         )
-        place = np.argsort(order)
-        self.keep(np.argsort(place[np.searchsorted(numbers, self.push)], kind="stable"))
+        place = {name: i for i, (*_, name) in enumerate(ends)}
+        self.keep(np.argsort([place[name] for name in self.push], kind="stable"))
 
     def leave_out_hole(self) -> None:
         """Leave out rows above the depth of a hole, which are no soil."""
         hole = self.table.facts.predrilled or 0.0
-        deepest = float(self.values["depth"].max())
-        if hole and hole >= deepest:
+        if hole and hole >= self.depth.max():
             raise InputError(
-                f"{self.path}: the file says that the hole above the test is {hole:g} m"
-                f" deep, and the last row is at {deepest:g} m: correct one of the two"
+                f"the file says that the hole above the test is {hole:g} m deep, and"
+                f" the last row is at {self.depth.max():g} m: correct one of the two"
             )
-        above = self.values["depth"] < hole - EDGE
+        above = self.depth < hole - EDGE
         self.leave_out(above, f"rows above the pre-excavated depth of {hole:g} m")
 
     def leave_out_values(self) -> None:
         """Leave out the sleeve frictions and pore pressures that cannot be meant where
         they are few, as at the end where the rods are pulled; not their rows."""
-        for name in (x for x in ("fs", "u2") if x in self.values):
-            values, (low, high) = self.values[name], RANGES[name]
+        moved = np.zeros(len(self.row), dtype=bool)
+        for key, name in (("fs", "friction"), ("u2", "pressure")):
+            values, (low, high) = getattr(self, name), RANGES[key]
             wrong = beyond = (values < low) | (values > high)
-            if name == "fs":  # in soil, which the cone resistance shows
-                tip = self.values[self.tip]
-                wrong = beyond | (values > tip) & (tip > WEAK)
-            if 0 < wrong.sum() <= FEW * len(wrong):
-                some = values[wrong] / 1e3
-                self.remarks.append(
-                    f"values of the {QUANTITIES[name].name} from {some.min():g} to"
-                    f" {some.max():g} kPa, which cannot be meant, left out:"
-                    f" {rows_text(self.row[wrong])}"
-                )
-                self.values[name] = np.where(wrong, np.nan, values)
-                if name == "fs" and "u2" in self.values and beyond.any():
-                    # as where the cells of a row stand one column beside their heads
-                    self.values["u2"] = np.where(beyond, np.nan, self.values["u2"])
-                    self.remarks[-1] += "; the pore pressure of these rows, too"
+            if key == "fs":  # in soil, which the cone resistance shows
+                wrong = beyond | (values > self.tip) & (self.tip > WEAK)
+            if not 0 < wrong.sum() <= FEW * len(wrong):
+                continue
+            if key == "fs" and "u2" in self.columns:
+                # as where the cells of a row stand one column beside their heads
+                moved = beyond
+            some = values[wrong] / 1e3
+            self.say(
+                wrong,
+                f"values of the {QUANTITIES[key].name} from {some.min():g} to"
+                f" {some.max():g} kPa, which cannot be meant, left out",
+                "; the pore pressure of these rows, too" if moved.any() else "",
+            )
+            setattr(self, name, np.where(wrong, np.nan, values))
+            self.pressure = np.where(moved, np.nan, self.pressure)
 
     def leave_out_no_load(self) -> None:
         """Leave out the rows in which the cone met no soil: a resistance of less than 0
         or the sleeve friction; at the start of a test, or few. In soft soil, too, the
         resistance is about 0: there they count, and less than 0 is 0."""
-        tip, depth = self.values[self.tip], self.values["depth"]
-        friction = self.values.get("fs", np.zeros(len(tip)))
-        low = RANGES[self.tip][0]
-        empty = (tip >= low) & ((tip < 0) | (friction > np.maximum(tip, 0)))
+        tip, depth, friction = self.tip, self.depth, self.friction
+        is_rubbed = friction > np.maximum(tip, 0)
+        empty = (tip >= RANGES["qc"][0]) & ((tip < 0) | is_rubbed)
         first = int(np.argmin(empty)) if not empty.all() else len(tip)
         soft = np.zeros(len(tip), dtype=bool)
         for i in np.flatnonzero(empty & (first < len(tip))):
@@ -281,12 +273,13 @@ class Readings:
             soft[i] = np.median(tip[near]) < SOFT
         if 0 < soft.sum() <= len(tip) / 2:
             some = depth[soft]
-            self.remarks.append(
+            self.say(
+                soft,
                 f"rows of soft soil with a q_c of about 0, from {some[0]:g} to"
-                f" {some[-1]:g} m, are kept, q_c below 0 as 0:"
-                f" {rows_text(self.row[soft])}; check the zero of the test"
+                f" {some[-1]:g} m, are kept, q_c below 0 as 0",
+                "; check the zero of the test",
             )
-            self.values[self.tip] = tip = np.where(soft, np.maximum(tip, 0.0), tip)
+            self.tip = tip = np.where(soft, np.maximum(tip, 0.0), tip)
             empty &= ~soft
         few = empty[first:].sum() <= FEW * len(tip)
         if few and first < len(tip) / 2:
@@ -307,7 +300,7 @@ class Readings:
     def check_order(self) -> None:
         """Leave out rows that repeat the depth of the row before, and few that go
         back, and refuse others."""
-        depth = self.values["depth"]
+        depth = self.depth
         above = np.concatenate([[-1.0], np.maximum.accumulate(depth)[:-1]])
         back = depth < above
         few = back.sum() <= REPEATED * (depth != above).sum()
@@ -321,41 +314,44 @@ class Readings:
 
     def check_ranges(self) -> None:
         """Refuse stresses that cannot be meant."""
-        if not np.median(self.values[self.tip]) > 0:
+        if not np.median(self.tip) > 0:
             raise InputError(
-                f"{self.path}: the cone resistance is 0 in most rows; check which"
-                f" column it is, and the unit in {self.table.units_are}"
+                "the cone resistance is 0 in most rows; check which column it is, and"
+                f" the unit in {self.table.units_are}"
             )
-        for name, (low, high) in RANGES.items():
-            values = self.values.get(name, np.zeros(0))
-            wrong = (values < low) | (values > high)
+        for key, values in (
+            (self.tip_name, self.tip),
+            ("fs", self.friction),
+            ("u2", self.pressure),
+        ):
+            low, high = RANGES[key]
             self.refuse(
-                wrong,
-                lambda i: f"the {QUANTITIES[name].name} is {values[i] / 1e6:g} MPa,"
-                f" which is not between {low / 1e6:g} and {high / 1e6:g} MPa; check the"
-                f" unit in {self.table.units_are}",
+                (values < low) | (values > high),
+                lambda i: f"the {QUANTITIES[key].name} is {values[i] / 1e6:g} MPa,"
+                f" which is not between {low / 1e6:g} and {high / 1e6:g} MPa;"
+                f" {self.check_unit}",
             )
 
     def complete_friction(self) -> None:
         """Take a drift below 0 as 0, and where there is none the share of q_c of the
         rows next to it; refuse a friction in another unit than its column says."""
-        if not self.has_values("fs"):
+        if not self.has_values("fs", "friction"):
             return
-        friction, tip = self.values["fs"], np.maximum(self.values[self.tip], 1.0)
-        depth, known = self.values["depth"], np.isfinite(self.values["fs"])
+        depth, friction, tip = self.depth, self.friction, np.maximum(self.tip, 1.0)
+        known = np.isfinite(friction)
         ratio = float(np.median(friction[known] / tip[known]))
         if ratio < SMOOTHEST:
             raise InputError(
-                f"{self.path}: the sleeve friction is {100 * ratio:.2g} % of the cone"
-                " resistance in the median, less than in any soil; check its unit, or"
-                " leave the column out and give --soil and --unit-weight"
+                f"the sleeve friction is {100 * ratio:.2g} % of the cone resistance in"
+                " the median, less than in any soil; check its unit, or leave the"
+                " column out and give --soil and --unit-weight"
             )
         drift = friction < 0
         if drift.any():
-            self.remarks.append(
+            self.say(
+                drift,
                 "rows of a sleeve friction below 0, down to"
-                f" {friction[drift].min() / 1e3:g} kPa, taken as 0:"
-                f" {rows_text(self.row[drift])}"
+                f" {friction[drift].min() / 1e3:g} kPa, taken as 0",
             )
         if not known.all():
             self.remarks.append(
@@ -364,34 +360,34 @@ class Readings:
                 f" {depth[~known][0]:g} to {depth[~known][-1]:g} m"
             )
         share = np.interp(depth, depth[known], (friction / tip)[known])
-        self.values["fs"] = np.maximum(np.where(known, friction, share * tip), 0.0)
+        self.friction = np.maximum(np.where(known, friction, share * tip), 0.0)
 
-    def has_values(self, name: str) -> bool:
-        """Return whether a column has values in enough rows to tell of the others; one
-        that has not is left out, and said."""
-        if name not in self.values:
-            return False
-        number, rows = int(np.isfinite(self.values[name]).sum()), len(self.row)
-        if number < ENOUGH * rows:
-            del self.values[name]
+    def has_values(self, key: str, name: str) -> bool:
+        """Return whether an array has values in enough rows to tell of the others; one
+        that has not becomes nan, which is said."""
+        number, rows = int(np.isfinite(getattr(self, name)).sum()), len(self.row)
+        if number >= ENOUGH * rows:
+            return True
+        if number or key in self.columns:
             some = f"values in only {number} of {rows} rows" if number else "no values"
-            self.remarks.append(f"the column of {QUANTITIES[name].name} has {some}")
-        return name in self.values
+            self.remarks.append(f"the column of {QUANTITIES[key].name} has {some}")
+        setattr(self, name, np.full(rows, np.nan))
+        return False
 
     def complete_pressure(self) -> None:
         """Take the pore pressure as hydrostatic where there is none."""
-        if not self.has_values("u2"):
+        if not self.has_values("u2", "pressure"):
             return
-        depth, pressure = self.values["depth"], self.values["u2"]
+        depth, pressure = self.depth, self.pressure
         missing = np.isnan(pressure)
+        self.pressure = np.where(missing, WATER * depth, pressure)
         ratio = np.abs(pressure[~missing]) / (WATER * np.maximum(depth[~missing], 0.1))
         if np.median(ratio) < DRY:
             self.remarks.append(
                 f"the pore pressure is {100 * np.median(ratio):.1g} % of water at rest"
-                f" in the median; check the unit in {self.table.units_are}"
+                f" in the median; {self.check_unit}"
             )
         if missing.any():
-            self.values["u2"] = np.where(missing, WATER * depth, pressure)
             self.remarks.append(
                 "rows without a pore pressure, which is taken as hydrostatic there:"
                 f" {missing.sum()}, the first at {depth[missing][0]:g} m"
@@ -408,16 +404,15 @@ class Readings:
         whether they were. given: the depth of the water (m), None if it is not known;
         ratio: the net area ratio a."""
         ratio = ratio if ratio and 0 < ratio <= 1 else AREA_RATIO
-        ratio = 1.0 if self.tip == "qt" else ratio
+        ratio = 1.0 if self.tip_name == "qt" else ratio
         water = WATER * given if given is not None else self.water_at_mudline(ratio)
         if not water:
             return False
-        tip, text = self.values[self.tip] - ratio * water, ""
+        tip, text = self.tip - ratio * water, ""
         if given is not None or np.mean(tip < -DRIFT) < FEW:
-            self.values[self.tip] = np.maximum(tip, 0.0)
+            self.tip = np.maximum(tip, 0.0)
             text = f" and {ratio * water / 1e3:.0f} kPa from q_c"
-        if "u2" in self.values:
-            self.values["u2"] = self.values["u2"] - water
+        self.pressure = self.pressure - water
         text = f"{water / 1e3:.0f} kPa is subtracted from u_2{text}"
         if given is None:
             text = (
@@ -433,13 +428,12 @@ class Readings:
         """Return the pressure of water (Pa) that u_2 has at the mudline, 0 where it has
         none. The excess of u_2 is u_0 and B_q times the net resistance, so that a line
         through the rows below the mudline has both."""
-        depth = self.values["depth"]
-        pressure = self.values.get("u2", np.full(len(depth), np.nan))
+        depth, pressure = self.depth, self.pressure
         known = np.isfinite(pressure)
         if depth[0] > START or known.sum() < ENOUGH * len(known):
             return 0.0
-        tip = self.values[self.tip] - WEIGHT * depth
-        tip = tip + (self.tip == "qc") * (1 - ratio) * pressure
+        tip = self.tip - WEIGHT * depth
+        tip = tip + (self.tip_name == "qc") * (1 - ratio) * pressure
         depth, tip = depth[known], tip[known]
         excess = pressure[known] - WATER * depth
         first = excess[depth <= START + FIRST]
@@ -447,7 +441,7 @@ class Readings:
             return 0.0
         near = depth <= 4 * START
         x, y = np.maximum(tip[near], 1.0), excess[near]
-        friction = self.values.get("fs", np.full(len(known), np.inf))[known][near]
+        friction = self.friction[known][near]
         friction = np.where(np.isnan(friction), np.inf, friction)
         is_sand = float(np.median(friction / np.maximum(x - y, 1.0))) < SMOOTH
         if np.median(y / x) < MOST_PRESSURE and not is_sand:
@@ -476,7 +470,7 @@ class Readings:
 
     def gaps(self) -> tuple[tuple[float, float], ...]:
         """Return top and bottom (m) of what was not measured between the rows."""
-        depth = self.values["depth"]
+        depth = self.depth
         step = np.diff(depth)
         wide = np.flatnonzero(step > max(GAP, SPACINGS * float(np.median(step))))
         found = tuple((float(depth[i]), float(depth[i + 1])) for i in wide)
@@ -492,33 +486,31 @@ class Readings:
         """Add rows from the mudline down to the first one where that is deep. given:
         stresses (Pa) of the soil above. Return the depth of the first row that was
         measured, and how the rows above it are known; 0 and "" if none is added."""
-        depth = self.values["depth"]
-        start = float(depth[0])
+        start = float(self.depth[0])
         if given and start < WIDEST_STEP:
             raise InputError(
-                f"--above is for a test that begins below the mudline; {self.path}"
-                f" begins at {start:g} m"
+                "--above is for a test that begins below the mudline; this one begins"
+                f" at {start:g} m"
             )
         if start <= START and not given:
             return 0.0, ""
-        first = depth <= start + FIRST
-        tip = given.get("qc", float(np.median(self.values[self.tip][first])))
-        spacing = max(float(np.median(np.diff(depth))), 0.02)
-        new = {"depth": np.arange(0.0, start - spacing / 2, spacing)}
-        new[self.tip] = np.full(len(new["depth"]), tip)
-        if "fs" in self.values:
-            measured = np.maximum(self.values[self.tip], 1.0)
-            share = float(np.median((self.values["fs"] / measured)[first]))
-            new["fs"] = np.full_like(new[self.tip], given.get("fs", share * tip))
-        if "u2" in self.values:
-            new["u2"] = WATER * new["depth"]
-        for name, values in new.items():
-            self.values[name] = np.concatenate([values, self.values[name]])
-        how = GIVEN if given else ASSUMED
+        first = self.depth <= start + FIRST
+        tip = given.get("qc", float(np.median(self.tip[first])))
+        spacing = max(float(np.median(np.diff(self.depth))), 0.02)
+        depth = np.arange(0.0, start - spacing / 2, spacing)
+        share = float(np.median((self.friction / np.maximum(self.tip, 1.0))[first]))
+        friction = given.get("fs", share * tip) if np.isfinite(share) else np.nan
+        pressure = depth * (WATER if np.isfinite(self.pressure).all() else np.nan)
+        self.depth = np.append(depth, self.depth)
+        self.tip = np.append(np.full_like(depth, tip), self.tip)
+        self.friction = np.append(np.full_like(depth, friction), self.friction)
+        self.pressure = np.append(pressure, self.pressure)
+        how, soil, way = GIVEN, "by --above", ""
+        if not given:
+            how, soil = ASSUMED, "as the first readings below it"
+            way = '; --above "qc = 2 MPa, fs = 20 kPa" gives another'
         hole = self.table.facts.predrilled
         why = f", pre-excavated to {hole:g} m" if hole else ""
-        soil = "by --above" if given else "as the first readings below it"
-        way = "" if given else '; --above "qc = 2 MPa, fs = 20 kPa" gives another'
         self.remarks.append(
             f"{how}: the soil above {start:g} m, where nothing was measured{why}, has a"
             f" q_c of {tip / 1e6:.3g} MPa {soil}{way}"
@@ -528,25 +520,30 @@ class Readings:
     def say_rest(self) -> None:
         """Refuse a test that is too weak for any soil, and say what is doubtful and
         what was not read."""
-        largest = float(self.values[self.tip].max())
-        units_are = f"check the unit in {self.table.units_are}"
+        largest = float(self.tip.max())
         if largest < WEAKEST:
             raise InputError(
-                f"{self.path}: the largest cone resistance is {largest:g} Pa, less than"
-                f" any soil has; {units_are}"
+                f"the largest cone resistance is {largest:g} Pa, less than any soil"
+                f" has; {self.check_unit}"
             )
         if largest < WEAK:
             self.remarks.append(
                 f"the largest cone resistance is only {largest / 1e3:g} kPa:"
-                f" {units_are}"
+                f" {self.check_unit}"
             )
-        if self.tip == "qt":
+        if self.tip_name == "qt":
             self.remarks.append("the file has q_t and no q_c: it is taken for both")
         if self.table.facts.water is not None:
             self.remarks.append(
                 f"the water level of the file, {self.table.facts.water:g} m, is not"
                 " used: the ground is below water"
             )
-        if self.table.unread:
-            unread = ", ".join(self.table.unread)
+        places = {head.place for head in self.columns.values()}
+        unread = ", ".join(
+            head.text
+            for head in self.table.heads
+            if head.text and head.place not in places
+            if not head.quantity or head.quantity in self.wanted
+        )
+        if unread and not self.table.is_register:
             self.remarks.append(f"columns that were not read: {unread}")

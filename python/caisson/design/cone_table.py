@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a file of a cone penetration test comes to in any format: rows of text, and
-columns that are quantities with units."""
+columns that are quantities with units; and their numbers.
+
+What is wrong is said with the row, and naming() puts the name of the file before it.
+"""
+import contextlib
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from pathlib import Path
 from typing import NamedTuple
+
+import numpy as np
 
 from caisson.disk import InputError
 from caisson.design.cone_words import CUSTOMARY, INSTEAD, LENGTH, NEEDED, QUANTITIES
@@ -14,9 +20,10 @@ from caisson.design.cone_words import unit_in
 
 EMPTY = frozenset(("", "-", "--", "n/a", "#n/a", "na", "nan", "none", "null", "void"))
 # what programs write where nothing was measured; no cone measures it in any unit
-STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2, bar, kgf/cm2, tsf, ksf or psi"
 VOIDS = frozenset((-999.0, -999.25, -9999.0, -99999.0, -999999.0, -32768.0))
+STRESSES = "Pa, kPa, MPa, kN/m2, MN/m2, N/mm2, bar, kgf/cm2, tsf, ksf or psi"
 COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")  # a number with a decimal comma
+BEGIN = re.compile(r"[+-]?[.,]?\d")  # of a number
 Rows = list[tuple[int, list[str]]]  # the number of a row in the file, and its cells
 
 
@@ -30,13 +37,11 @@ class Head(NamedTuple):
     unit: str
     row: int
 
-
-class Column(NamedTuple):
-    """Where a quantity is, its unit in m or Pa, and its name in the file."""
-
-    place: int
-    unit: float
-    text: str
+    @property
+    def factor(self) -> float | None:
+        """What its numbers are multiplied with for m or Pa, None if that is not
+        known."""
+        return QUANTITIES[self.quantity].units.get(unit_in(self.unit))
 
 
 class Facts(NamedTuple):
@@ -50,21 +55,49 @@ class Facts(NamedTuple):
 
 @dataclass
 class Table:
-    """The rows of a test, and its columns by quantity.
+    """The rows of a test, and its columns as the file has them.
 
-    unread: heads that were not read; units_are: where the units stand; pushes: the name
-    of the push of each row, where a test has several; is_sorted: whether the order of
-    the rows is that of the depths.
+    units_are: where the units stand; advice: how the file would name depth and cone
+    resistance; pushes: the name of the push of each row, where a test has several;
+    is_register: whether the rows have no order, and the columns always are the same.
     """
 
-    columns: Mapping[str, Column]
+    heads: Sequence[Head]
     rows: Rows
-    unread: tuple[str, ...]
     units_are: str
+    advice: str
     facts: Facts = Facts()
     remarks: list[str] = field(default_factory=list)
-    pushes: list[str] = field(default_factory=list)
-    is_sorted: bool = True
+    pushes: Sequence[str] = ()
+    is_register: bool = False
+
+
+@contextlib.contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Put the name of a file before what is wrong with it, or with its row."""
+    try:
+        yield
+    except InputError as error:
+        link = ", " if str(error).startswith("row ") else ": "
+        raise InputError(f"{path}{link}{error}") from error
+
+
+def refuse(wrong: Sequence[tuple[int, str]]) -> None:
+    """Raise InputError with the first row that is wrong, and the numbers of others, if
+    there are some."""
+    if not wrong:
+        return
+    (row, why), *others = wrong
+    more = ""
+    if others:
+        rows = ", ".join(str(row) for row, _ in others[:4])
+        rows_are = "row is" if len(others) == 1 else "rows are"
+        dots = ", ..." if len(others) > 4 else ""
+        more = f" ({len(others)} more {rows_are} wrong: {rows}{dots})"
+    raise InputError(f"row {row}: {why}{more}")
+
+
+# --------------------------------------------------------------- the cells
 
 
 def cell_of(cells: Sequence[str], place: int) -> str:
@@ -78,9 +111,12 @@ def value_of(text: str) -> float:
     that stands for no value. Raises ValueError."""
     if not text:
         return nan
-    value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)
+    try:
+        value = float(text.replace(",", ".") if COMMA.fullmatch(text) else text)
+    except ValueError:
+        value = inf
     if not isfinite(value):
-        raise ValueError(f"{text!r} is no number")
+        raise ValueError(f"{text!r} is no number; leave a cell empty that has no value")
     return nan if value in VOIDS else value
 
 
@@ -92,77 +128,73 @@ def is_number(text: str) -> bool:
         return False
 
 
-def refuse(path: Path, wrong: Sequence[tuple[int, str]]) -> None:
-    """Raise InputError with the first row that is wrong, and the numbers of others, if
-    there are some."""
-    if wrong:
-        row, why = wrong[0]
-        raise InputError(f"{path}, row {row}: {why}{more(wrong[1:])}")
-
-
-def more(wrong: Sequence[tuple[int, str]]) -> str:
-    """Return in words how many rows are wrong besides the first."""
-    if not wrong:
-        return ""
-    rows = ", ".join(str(row) for row, _ in wrong[:4])
-    dots = ", ..." if len(wrong) > 4 else ""
-    rows_are = "row is" if len(wrong) == 1 else "rows are"
-    return f" ({len(wrong)} more {rows_are} wrong: {rows}{dots})"
-
-
-def unit_of(path: Path, head: Head) -> float:
-    """Return the unit of a column in m or Pa. Raises InputError."""
-    quantity = QUANTITIES[head.quantity]
-    word = unit_in(head.unit)
-    if word not in quantity.units:
-        known = "m, cm, mm or ft" if quantity.units is LENGTH else STRESSES
-        raise InputError(
-            f"{path}, row {head.row}: the column {head.text!r}, the {quantity.name},"
-            f" has no unit that is known, but {head.unit or 'none'!r}; write one of"
-            f" {known}"
+def numbers_in(cells: Sequence[str], has_points: bool) -> list[float]:
+    """Return the numbers of a row. has_points: numbers of the file have a decimal
+    point, so that a comma is none. Raises ValueError."""
+    comma = next(filter(COMMA.fullmatch, cells), "") if has_points else ""
+    if comma:
+        raise ValueError(
+            f"{comma!r} has a comma where other rows have a decimal point; write all"
+            " numbers with a point"
         )
-    return quantity.units[word]
+    return [value_of(text) for text in cells]
 
 
-def columns_of(
-    path: Path, heads: Sequence[Head], rows: Rows, wanted: Sequence[str], advice: str
-) -> dict[str, Column]:
-    """Return the columns of the quantities that are wanted and there. A quantity
-    without values in most rows gives way to the one that may stand for it. advice: how
-    the file would name depth and cone resistance. Raises InputError."""
-    found: dict[str, Column] = {}
-    for name in wanted:
-        some = [h for h in heads if h.quantity == name]
-        other = [h for h in heads if h.quantity == INSTEAD.get(name)]
-        filled = [head for head in some or other if is_filled(rows, head.place)]
-        if not filled and some and other and is_filled(rows, other[0].place):
-            some = other
-        some = filled or some or other
-        known = [h for h in some if unit_in(h.unit) in QUANTITIES[h.quantity].units]
-        metric = [head for head in known if unit_in(head.unit) not in CUSTOMARY]
-        some = metric or known or some
-        if name == "rf":  # only where it is needed, and can be read
-            is_needed = "fs" not in found or not is_filled(rows, found["fs"].place)
-            some = known[:1] if is_needed else []
-        if len({(unit_in(h.unit), *column_cells(rows, h.place)) for h in some}) == 1:
-            some = some[:1]  # the same twice, as beside results
-        if len(some) > 1:
-            raise InputError(
-                f"{path}, row {some[1].row}: two columns are the"
-                f" {QUANTITIES[some[0].quantity].name}, {some[0].text!r} and"
-                f" {some[1].text!r}; leave out one"
-            )
-        if not some and name in NEEDED:
-            raise InputError(
-                f"{path}: no column is the {QUANTITIES[name].name}; {advice}"
-            )
-        for head in some:
-            found[head.quantity] = Column(head.place, unit_of(path, head), head.text)
-    for head in heads:  # the length of the rods checks a corrected depth
-        is_known = head.quantity == "rods" and unit_in(head.unit) in LENGTH
-        if is_known and "depth" in found:
-            found["rods"] = Column(head.place, unit_of(path, head), head.text)
-    return found
+def lines_of_text(texts: Sequence[Sequence[str]], depth: int) -> list[int]:
+    """Return the places of the rows of cells that are lines of text, as heads on a new
+    page or "End of test". depth: the place of that."""
+    numbers = (i for i, cells in enumerate(texts) if is_number(cells[depth]))
+    end = max(numbers, default=-1)
+
+    def is_text(i: int) -> bool:
+        if i > end:
+            try:
+                value_of(texts[i][depth])
+            except ValueError:
+                return True
+        return any(texts[i]) and not any(map(BEGIN.match, texts[i]))
+
+    return [i for i in range(len(texts)) if is_text(i)]
+
+
+def numbers_of(
+    table: Table, columns: Mapping[str, Head]
+) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
+    """Return the rows of a table without lines of text, which are named: the number of
+    each in the file, its values by quantity in m and Pa, nan for none, and the name of
+    its push, [n] each. Raises InputError."""
+    heads = columns.values()
+    texts = [[cell_of(cells, head.place) for head in heads] for _, cells in table.rows]
+    depth = "depth" if "depth" in columns else INSTEAD["depth"]
+    words = lines_of_text(texts, [*columns].index(depth))
+    if words:
+        row, cells = table.rows[words[0]]
+        table.remarks.append(
+            f"lines of text between and below the rows, left out: {len(words)}, the"
+            f" first is row {row}, {' '.join(cells).strip()[:40]!r}"
+        )
+    kept = sorted({*range(len(texts))} - {*words})
+    if len(kept) < 2:
+        raise InputError(
+            "a cone test needs two rows with a depth and a cone resistance; there are"
+            f" {len(kept)}"
+        )
+    has_points = any("." in text for i in kept for text in texts[i])
+    values, wrong = list[list[float]](), list[tuple[int, str]]()
+    for i in kept:
+        try:
+            values.append(numbers_in(texts[i], has_points))
+        except ValueError as error:
+            wrong.append((table.rows[i][0], str(error)))
+    refuse(wrong)
+    with np.errstate(over="ignore"):  # what is too large is refused in a moment
+        array = np.array(values) * [head.factor for head in heads]
+    row_of = np.array([table.rows[i][0] for i in kept])
+    push = np.array([table.pushes[i] if table.pushes else "" for i in kept])
+    return row_of, dict(zip(columns, array.T)), push
+
+
+# ------------------------------------------------------------- the columns
 
 
 def column_cells(rows: Rows, place: int) -> list[str]:
@@ -170,22 +202,51 @@ def column_cells(rows: Rows, place: int) -> list[str]:
     return [cell_of(cells, place) for _, cells in rows]
 
 
-def is_filled(rows: Rows, place: int) -> bool:
-    """Return whether a column has values in most rows."""
-    return sum(map(is_number, column_cells(rows, place))) > len(rows) / 2
-
-
-def table_of(
-    path: Path,
-    heads: Sequence[Head],
-    rows: Rows,
-    wanted: Sequence[str],
-    units_are: str,
-    advice: str,
-) -> Table:
-    """Return the table of a file. Raises InputError."""
-    columns = columns_of(path, heads, rows, wanted, advice)
-    places = {column.place for column in columns.values()}
-    unknown = [h for h in heads if h.place not in places and h.text]
-    unread = tuple(h.text for h in unknown if h.quantity in ("", *wanted))
-    return Table(columns, rows, unread, units_are)
+def columns_of(table: Table, wanted: Sequence[str]) -> dict[str, Head]:
+    """Return the columns of the quantities that are wanted and there. A quantity
+    without values in most rows gives way to the one that may stand for it. Raises
+    InputError."""
+    found: dict[str, Head] = {}
+    cells = {
+        h.place: column_cells(table.rows, h.place) for h in table.heads if h.quantity
+    }
+    most = len(table.rows) / 2
+    filled = {
+        place for place, texts in cells.items() if sum(map(is_number, texts)) > most
+    }
+    for name in wanted:
+        some = [h for h in table.heads if h.quantity in (name, INSTEAD.get(name, name))]
+        for is_better in (
+            lambda h: h.place in filled,
+            lambda h: h.quantity == name,
+            lambda h: h.factor is not None,
+            lambda h: unit_in(h.unit) not in CUSTOMARY,
+        ):
+            some = list(filter(is_better, some)) or some
+        if name == "rf":  # only where it is needed, and can be read
+            is_needed = "fs" not in found or found["fs"].place not in filled
+            some = [h for h in some if is_needed and h.factor is not None][:1]
+        if len({(unit_in(h.unit), *cells[h.place]) for h in some[1:] and some}) > 1:
+            raise InputError(
+                f"row {some[1].row}: two columns are the"
+                f" {QUANTITIES[some[0].quantity].name}, {some[0].text!r} and"
+                f" {some[1].text!r}; leave out one"
+            )
+        if not some and name in NEEDED:
+            raise InputError(
+                f"no column is the {QUANTITIES[name].name}; {table.advice}"
+            )
+        for head in some[:1]:  # others are the same, as beside results
+            quantity = QUANTITIES[head.quantity]
+            if head.factor is None:
+                known = "m, cm, mm or ft" if quantity.units is LENGTH else STRESSES
+                raise InputError(
+                    f"row {head.row}: the column {head.text!r}, the {quantity.name},"
+                    f" has no unit that is known, but {head.unit or 'none'!r}; write"
+                    f" one of {known}"
+                )
+            found[head.quantity] = head
+    rods = [h for h in table.heads if h.quantity == "rods" and h.factor is not None]
+    if rods and "depth" in found:  # it checks a corrected depth
+        found["rods"] = rods[-1]
+    return found

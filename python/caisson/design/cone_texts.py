@@ -200,14 +200,14 @@ def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
             f" cone does not meet the measured resistance; its modulus is {ratio:.2f}"
             " times that by density"
         )
-    ratio = answer_of(test.ground, e, test.names)
+    ratio = answer_of(test.ground, e)
     if abs(ratio - 1) > DOES_NOT_ANSWER:
         found.append(
             f"layer {number}: no sand of this law answers its cone; a computed cone"
             f" meets {ratio:.2f} times the measured resistance, and low and high"
             " estimate may be the same"
         )
-    mean = float(np.median(mean_stress_of(test.ground, e, test.names)))
+    mean = float(np.median(mean_stress_of(test.ground, e)))
     if not is_known(density, mean):
         found.append(
             f"layer {number}: no cone was computed at a relative density of"

@@ -104,47 +104,29 @@ class Correlation(NamedTuple):
 
 LAB = "silica sand, vertical effective stress 50 to 400 kPa"
 AT_TIP = "Bolton (1986) at the mean stress of Randolph, Dolwin & Beck (1994)"
+OF_OWN_CLAY = "a cone computed in clay, and the rate of the wall"
+DEEP = "the law of the scene; below 30 cone diameters"
+MOBILIZED = "silica sand, half of its strength mobilized"
+UNDRAINED = "clay, and silt without drainage"
 EVERY = [
-    Correlation(quantity, name, source, holds)
-    for quantity, name, source, holds in (
-        (
-            DENSITY,
-            OWN_CONE,
-            "cones computed with the program",
-            "the law of the scene; below 30 cone diameters",
-        ),
-        (
-            DENSITY,
-            IN_CHAMBERS,
-            "Jamiolkowski, Lo Presti & Manassero (2003)",
-            LAB,
-        ),
-        (DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"),
-        (
-            ANGLE,
-            "bolton-1986-tip",
-            AT_TIP,
-            "quartz sand under a tip, from relative density",
-        ),
-        (
-            MODULUS,
-            "brinkgreve-2010",
-            "Brinkgreve, Engin & Engin (2010)",
-            "silica sand, half of its strength mobilized",
-        ),
-        (
-            STRENGTH,
-            OWN_CLAY,
-            "a cone computed in clay, and the rate of the wall",
-            "clay, and silt without drainage",
-        ),
-        (
-            STRENGTH,
-            NKT,
-            "Robertson & Cabal (2015)",
-            "clay, and silt without drainage",
-        ),
-    )
+    Correlation(DENSITY, OWN_CONE, "cones computed with the program", DEEP),
+    Correlation(
+        DENSITY, IN_CHAMBERS, "Jamiolkowski, Lo Presti & Manassero (2003)", LAB
+    ),
+    Correlation(
+        DENSITY, "baldi-1986", "Baldi et al. (1986)", "normally consolidated sand"
+    ),
+    Correlation(
+        ANGLE,
+        "bolton-1986-tip",
+        AT_TIP,
+        "quartz sand under a tip, from relative density",
+    ),
+    Correlation(
+        MODULUS, "brinkgreve-2010", "Brinkgreve, Engin & Engin (2010)", MOBILIZED
+    ),
+    Correlation(STRENGTH, OWN_CLAY, OF_OWN_CLAY, UNDRAINED),
+    Correlation(STRENGTH, NKT, "Robertson & Cabal (2015)", UNDRAINED),
 ]
 BY_NAME = {correlation.name: correlation for correlation in EVERY}
 
