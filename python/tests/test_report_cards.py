@@ -182,12 +182,12 @@ class Cards(WithPage):
         heads += [f"computed / {name}" for name in "ABC"]
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
         found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
-        card = ("Computed / method", "0.5 to 2", "of B at 4.5 m")
+        card = ["Computed / method", "0.5 to 2", "of B at 4.5 m"]
         self.assertEqual(methods.card_of(found), [card])
         heads[2] = "computed / undisturbed"
         rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
         found = {"tables": [{"heads": heads, "rows": rows}]}
-        card = ("Computed / method", "2", "of B at 4 m")
+        card = ["Computed / method", "2", "of B at 4 m"]
         self.assertEqual(methods.card_of(found), [card])
         self.assertEqual(methods.card_of({"tables": []}), [])
 

@@ -10,7 +10,7 @@ from caisson.band import BEST, HIGH, LOW, band_of
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
 from caisson.verdict.installation import NOTHING, Installation, Rate
-from caisson.report.verdict import REST, Card, Verdict, say, verdict_of
+from caisson.report.verdict import REST, Verdict, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
 from caisson.results import Results
 from caisson.shown import Units
@@ -43,7 +43,7 @@ def verdict_with(run: Results) -> Verdict:
     return best._replace(text=f"{best.text} {sentence_of(run)}".rstrip())
 
 
-def cards_of(run: Results, cards: list[Card]) -> list[Card]:
+def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     """Return the cards of a run, where the penetration by weight has its range in place
     of the weight, which the verdict names."""
     ends = []
@@ -53,7 +53,7 @@ def cards_of(run: Results, cards: list[Card]) -> list[Card]:
         ends += [f"{estimate} resistance: {c[1]}" for c in own if c[0] == REST]
     if not ends:
         return cards
-    return [(*c[:2], "; ".join(ends)) if c[0] == REST else c for c in cards]
+    return [[*c[:2], "; ".join(ends)] if c[0] == REST else c for c in cards]
 
 
 def uncertainty_of(run: Results) -> str:

@@ -321,7 +321,7 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
 # ------------------------------------------------------------------ all
 
 
-def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
+def card_of(found: dict[str, Any]) -> list[list[str]]:
     """Return a card with computed over method, of the first table of the methods, at
     the deepest depth with an answer of a method that is fitted to field data, without
     an assumed cone if possible, else of the lower bound; nothing where none has an
@@ -336,7 +336,7 @@ def card_of(found: dict[str, Any]) -> list[tuple[str, ...]]:
     fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
     measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
     for depth, name, value in (measured or fitted or answers)[:1]:
-        return [("Computed / method", value, f"of {name} at {depth}")]
+        return [["Computed / method", value, f"of {name} at {depth}"]]
     return []
 
 

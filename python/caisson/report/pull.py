@@ -11,7 +11,7 @@ from caisson import curves
 from caisson.evaluation import capacity_in_words, is_pull, is_sealed
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
-from caisson.template import say
+from caisson.template import say, say_rows
 from caisson.verdict.outcome import results_of
 
 SENTENCES = Path(__file__).with_name("verdict.jinja")
@@ -23,18 +23,12 @@ def largest_pull(run: Results) -> Mapping[str, Any]:
     return results_of(run).get("largest_pull", {}) if is_pull(run) else {}
 
 
-def cards_of(run: Results) -> list[tuple[str, ...]]:
+def cards_of(run: Results) -> list[list[str]]:
     """Return (name, value, remark) of what bears the largest pull; nothing without."""
-    most = largest_pull(run)
-    if not most:
+    if not (most := largest_pull(run)):
         return []
-    force = {k: run.shown.force(x / 1e3) for k, x in most.items() if k.endswith("_N")}
-    inside = f"inside {force['inner_friction_N']}, tip {force['tip_N']}"
-    cards = [("Of which friction outside", force["outer_friction_N"], inside)]
-    if curves.WITH_WATER in run.history:
-        remark = "negative where it presses up"
-        cards.append((f"Of which {WATER}", force["water_N"], remark))
-    return list[tuple[str, ...]](cards)
+    what = run.shown, most, curves.WITH_WATER in run.history
+    return say_rows(SENTENCES, "pull_cards", *what, cells=3)
 
 
 def sentence_of(run: Results) -> str:

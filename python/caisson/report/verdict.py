@@ -28,8 +28,6 @@ NEAR = 0.9  # of the allowable suction: a required one that reaches it
 NEARLY = 0.01  # of the largest flow
 REST = "Self-weight penetration"  # a card
 
-Card = tuple[str, str, str]  # name, value, remark
-
 
 class Verdict(NamedTuple):
     """The sentence, and the depth (m) where suction ends, None where it does not."""
@@ -120,30 +118,16 @@ def largest_flow(found: Installation) -> int:
     return int(np.flatnonzero(flow >= flow.max() - NEARLY * abs(flow.max()))[-1])
 
 
-def cards_of(run: Results, found: Installation, rate: Rate) -> list[Card]:
+def cards_of(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     """Return (name, value, remark) of what matters beside the verdict."""
-    cards: list[Card] = []
     if not len(found.required):
-        return cards
-    if not found.has_suction:
-        cards.append((REST, *halves("no_suction", found)))
-    elif found.rest is not None:
-        weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
-        remark = say("under", found.shown, weight, ways_down(run))
-        cards.append((REST, rest_in_words(run, found.rest), remark))
-    if len(found.flow):
-        name = "Pump" if found.has_suction else "Water to vent"
-        cards.append((name, *halves("flow", found, largest_flow(found), rate.words)))
-    if len(found.room):
-        length = float(run.scene["skirt_length_m"])
-        cards.append(("Room below the lid", *halves("room", found, length)))
-    return cards
-
-
-def halves(name: str, *data: Any) -> tuple[str, str]:
-    """Return value and remark of a card."""
-    value, _, remark = say(name, *data).partition(" | ")
-    return value, remark
+        return []
+    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
+    rest = "" if found.rest is None else rest_in_words(run, found.rest)
+    row = largest_flow(found) if len(found.flow) else None
+    length = float(run.scene.get("skirt_length_m") or 0)
+    what = weight, rest, ways_down(run), row, rate.words, length
+    return template.say_rows(pull.SENTENCES, "cards", found, *what, cells=3)
 
 
 def lines_of(run: Results) -> list[str]:
