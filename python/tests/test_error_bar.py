@@ -17,7 +17,8 @@ from caisson import curves, error_bounds
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
-from caisson.study import Options, Reader, Study, StudyError, execute
+from caisson.runs import How, StudyRun, make
+from caisson.study import Options, Reader, Study, StudyError
 from caisson.error import command, error_bar, windows
 from caisson.error.mesh_error import mesh_error
 from lab import verification
@@ -334,14 +335,17 @@ class Plan(unittest.TestCase):
 
     def test_failed_run(self) -> None:
         """None begins after it, as the bar needs all of them."""
-        runs = [unittest.mock.Mock(trouble=None, duration=9 - i) for i in range(3)]
-        runs[1].run.execute.side_effect = RunError("a window ended early")
-        for run in runs:
-            run.execute.side_effect = run.run.execute
+        calls = [
+            unittest.mock.Mock(**{"is_complete.return_value": False}) for _ in "abc"
+        ]
+        calls[1].execute.side_effect = RunError("a window ended early")
+        runs = [StudyRun("s", "", "", "", 9 - i, {}, c) for i, c in enumerate(calls)]
+        for call in calls:
+            call.completion_record.return_value = {"wall_s": 1, "status": 0}
         with contextlib.redirect_stdout(io.StringIO()):
-            execute([(runs, 1, None)], needs_all=True)
-        self.assertIn("a window ended early", runs[1].trouble)
-        self.assertEqual([run.execute.called for run in runs], [True, True, False])
+            make(runs, How(jobs=1, needs_all=True))
+        self.assertIn("a window ended early", str(runs[1].trouble))
+        self.assertEqual([call.execute.called for call in calls], [True, True, False])
 
     def test_caution_with_suction(self) -> None:
         """Windows do not see what it has done to the soil."""

@@ -16,12 +16,13 @@ import numpy as np
 from synthetic import write_run
 
 from caisson import __main__ as program
-from caisson import error_bounds, parameters, progress, study_command
+from caisson import error_bounds, parameters, progress, runs, study_command
 from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.ranks import cores
 from caisson.results import read_table
-from caisson.study import Options, Study, StudyError, execute
+from caisson.runs import execute
+from caisson.study import Options, Study, StudyError
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
@@ -187,6 +188,11 @@ class Commands(WithFiles):
         self.assertTrue((place / "precious").exists())
         self.assertFalse((place / "forces.png").exists())
 
+    def jobs_of(self, study: Study) -> int:
+        """Return how many runs of a study are made at a time."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            return runs.shares_of(study.runs, None)[0][1]
+
     def test_jobs(self) -> None:
         """As many runs at a time as there are cores for their ranks."""
         self.write("ranks = 1000\n" + PHI + "values = [30]")
@@ -194,10 +200,10 @@ class Commands(WithFiles):
         file = self.path / "s.toml"
         module = study_command.module_of(file)
         (study,) = study_command.reader_of(file, options, module).studies()
-        self.assertEqual(study_command.jobs_at_hand(study.runs), 1)
+        self.assertEqual(self.jobs_of(study), 1)
         self.write(PHI + "values = [30]")
         (study,) = study_command.reader_of(file, options, module).studies()
-        self.assertEqual(study_command.jobs_at_hand(study.runs), cores())
+        self.assertEqual(self.jobs_of(study), cores())
 
     def test_last_runs_get_more_ranks(self) -> None:
         """Of three long runs on two cores, the last one is lent the core that is free;
@@ -209,7 +215,7 @@ class Commands(WithFiles):
         mpirun.chmod(0o755)
         path = f"{tools}:{os.environ['PATH']}"
         self.write(PHI + "values = [30, 32, 34]")
-        with mock.patch.object(study_command, "cores", return_value=2), mock.patch.dict(
+        with mock.patch.object(runs, "cores", return_value=2), mock.patch.dict(
             os.environ, {"PATH": path, "FAKE_PROGRAM_POINTS": "40000"}
         ):
             status, said = self.study()
@@ -427,12 +433,12 @@ class Evaluation(WithFiles):
         found = self.outcomes(PHI + "values = [30]", "d", {})
         found.study.keys["cone"] = "cone.csv"
         with self.assertRaisesRegex(StudyError, "cone.csv, row 4: the depth of 1 m"):
-            parameters.check([found.study], 1)
+            parameters.check([found.study])
         (self.path / "cone.csv").write_text("0,1\n1,20\n")  # asks for an option
         with self.assertRaisesRegex(
             StudyError, "; or name the table that `caisson sug"
         ):
-            parameters.check([found.study], 1)
+            parameters.check([found.study])
 
     def test_observed(self) -> None:
         """What there is; what there is not is refused with the columns there are."""

@@ -16,7 +16,6 @@ from matplotlib.figure import Figure
 
 from caisson import disk, plot, report
 from caisson.band import BEST, ESTIMATES, member_of
-from caisson.parameters.outcome import COMPLETE, status_of
 from caisson.paths import short
 from caisson.ranks import cores
 from caisson.report import verdict
@@ -24,8 +23,8 @@ from caisson.verdict import installation
 from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.runner import Run
-from caisson.study import Options, Study, StudyRun
-from caisson.study_command import query_size
+from caisson.runs import COMPLETE, StudyRun
+from caisson.study import Options, Study
 from caisson.table import digits, write_csv
 from caisson.template import template
 
@@ -76,19 +75,6 @@ class Row(NamedTuple):
         return self.is_complete, self.reached, -share
 
 
-def check(studies: Sequence[Study], jobs: int) -> None:
-    """Ask for the sizes of the runs that are not complete; those that were begun go on
-    from their checkpoints."""
-    runs = [run for study in studies for run in study.runs]
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        missing = [run for run in runs if run.run.completion_record() is None]
-        list(pool.map(query_size, missing))
-        list(pool.map(lambda run: run.run.resume(), missing))
-    for run in missing:
-        if run.run.restarts:
-            print(f"{run.study} {run.name}: goes on from its checkpoint", flush=True)
-
-
 def page_of(directory: Path) -> str:
     """Draw the pictures and write the page of a run, if it has none since its end and
     that of its band; return why there is none, "" where there is."""
@@ -107,7 +93,7 @@ def page_of(directory: Path) -> str:
 
 def row_of(run: StudyRun, folder: Path) -> Row:
     """Return what has become of a position."""
-    status, why = status_of(run)
+    status, why = run.outcome
     page = run.run.directory / report.NAME
     link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
     name = run.settings.get("position", {}).get("name", run.name)
@@ -191,7 +177,7 @@ def write_table(path: Path, rows: Sequence[Row]) -> Path:
 def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     """Write pages and overview; return 1 where a position has no result."""
     folder, runs = options.results, [run for study in studies for run in study.runs]
-    done = [run.run.directory for run in runs if status_of(run)[0] == COMPLETE]
+    done = [run.run.directory for run in runs if run.outcome[0] == COMPLETE]
     with concurrent.futures.ProcessPoolExecutor(cores()) as pool:
         for trouble in filter(None, pool.map(page_of, done)):
             print(trouble)

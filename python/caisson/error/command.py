@@ -25,8 +25,8 @@ from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
 from caisson.runner import Entries, Run, RunError, read_parameters
-from caisson.study import Options, Study, StudyError, StudyRun, execute
-from caisson.study_command import shares_of, to_do_of
+from caisson.runs import How, StudyRun, make, survey
+from caisson.study import Options, Study, StudyError
 from caisson.error import error_bar
 from caisson.error.windows import NUMBERS, Window, WindowedRun, windows_of
 
@@ -361,7 +361,7 @@ class Plan:
     def execute(self, runs: list[StudyRun], again: bool) -> None:
         """Run what is not complete. Raises StudyError where a run has no result."""
         self.keep_size()
-        execute(shares_of(to_do_of(runs, again), None), again, needs_all=True)
+        make(survey(runs, again), How(again, needs_all=True))
         if missing := [run for run in runs if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
             raise StudyError(f"{cause.name}: {cause.trouble}")

@@ -15,7 +15,8 @@ import numpy as np
 
 from caisson.paths import PROGRAM
 from caisson.progress import duration
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from caisson.error import command, error_bar
 
 BUDGET = 7200.0  # s of all runs on one core, if none is given
