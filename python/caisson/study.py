@@ -54,7 +54,7 @@ and the ranks are the same (caisson.runner.Run).
 import collections
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -267,15 +267,3 @@ def file_name(text: str) -> str:
     if text and not name.strip("."):
         raise StudyError(f"{text!r} is no name for a directory: use letters or digits")
     return name
-
-
-def check_is_own(directory: Path, study: Study, names: Iterable[str]) -> None:
-    """Raise StudyError where a directory has files of these names, which the study is
-    going to write, and none of its runs: they are of something else."""
-    found = [path for path in map(directory.joinpath, names) if path.exists()]
-    is_own = any((run.run.directory / Run.RECORD).is_file() for run in study.runs)
-    if found and not is_own:
-        raise StudyError(
-            f"{found[0]} is there, and is not of the study {study.id}, which has no run"
-            " there: move the file, or choose other --results or another id"
-        )

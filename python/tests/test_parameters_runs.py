@@ -170,15 +170,15 @@ class Commands(WithFiles):
         place = self.path / "results/s/Friction_angle_30"
         place.mkdir(parents=True)
         (place / "precious").touch()
-        (place.parent / "table.csv").touch()
-        status, said = self.study()
-        self.assertIn("table.csv is there, and is not of the study s", said)
-        (place.parent / "table.csv").unlink()
+        (place.parent / "table.csv").write_text("precious")
         with open(place / ".lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             status, said = self.study()
         self.assertEqual(status, 1)
         self.assertIn("another process computes in", said)
+        self.assertIn("kept: ", said)
+        kept = place.parent / "earlier_1/table.csv"
+        self.assertEqual(kept.read_text(encoding="utf-8"), "precious")
         self.assertTrue((place / "precious").exists())
         self.assertEqual(self.calls(), ["Friction_angle_34"])
         (place / "forces.png").touch()  # not of this run, which has not been made
