@@ -175,7 +175,7 @@ def survey(
     with concurrent.futures.ThreadPoolExecutor(cores()) as pool:
         chosen = list(pool.map(lambda run: again or not run.run.is_complete(), runs))
         found = [run for run, is_chosen in zip(runs, chosen) if is_chosen]
-        if resumes:
+        if resumes and not again:
             list(pool.map(lambda run: run.run.resume(), found))
         is_few = len(found) <= FEW * cores()
         long = [r for r in found if is_few and r.seconds >= LONG and not r.size.points]

@@ -49,7 +49,8 @@ the runs of a study itself, from keys of its own. A key that is not known is an 
 so that no misspelled one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect
-and the ranks are the same (caisson.runner.Run).
+and the ranks are the same (caisson.runner.Run). One of a user's study that was stopped
+goes on from its checkpoint.
 """
 import collections
 import re

@@ -168,7 +168,7 @@ def make_missing(
         module.check(studies)
     runs, again = [run for study in studies for run in study.runs], arguments.again
     is_own = module.NAME in KINDS
-    to_do = survey(runs, again, resumes=module.NAME == "park", asks_all=is_own)
+    to_do = survey(runs, again, resumes=is_own, asks_all=is_own)
     if hasattr(module, "refuse"):
         module.refuse(studies, to_do)
     if arguments.part:

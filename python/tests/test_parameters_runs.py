@@ -188,6 +188,19 @@ class Commands(WithFiles):
         self.assertTrue((place / "precious").exists())
         self.assertFalse((place / "forces.png").exists())
 
+    def test_a_run_that_was_stopped(self) -> None:
+        """It goes on from its checkpoint, but with --again from its start."""
+        self.write(PHI + "values = [30, 34]")
+        place = self.path / "results/s/Friction_angle_30"
+        place.mkdir(parents=True)
+        (place / "checkpoint.info").touch()
+        self.assertIn("s Friction angle 30: goes on from its", self.study()[1])
+        self.assertEqual(self.calls(), ["Friction_angle_30+", "Friction_angle_34"])
+        (place / "run_key.json").unlink()
+        self.study("--again")
+        self.assertEqual(self.calls().count("Friction_angle_30+"), 1)
+        self.assertEqual(len(self.calls()), 4)
+
     def jobs_of(self, study: Study) -> int:
         """Return how many runs of a study are made at a time."""
         with contextlib.redirect_stdout(io.StringIO()):

@@ -392,7 +392,7 @@ class Plan:
         self.keep_size()
         parts = {run.name: self.parts_of(run) for run in runs}
         every = [part for of_run in parts.values() for part in of_run]
-        make(survey(every, again), How(again, needs_all=True))
+        make(survey(every, again, resumes=True), How(again, needs_all=True))
         if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
             raise StudyError(f"{cause.name}: {cause.trouble}")
