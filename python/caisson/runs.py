@@ -9,7 +9,7 @@ and the ranks are the same (caisson.runner.Run).
 """
 import concurrent.futures
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -236,20 +236,6 @@ def made(run: StudyRun, how: How, ranks: int | None) -> tuple[str, str | None, b
     return run.execute(how.again, how.time_limit, ranks), run.trouble, run.is_stopped
 
 
-def made_by(
-    client: Any, run: StudyRun, how: How, ranks: int | None
-) -> tuple[str, str | None, bool]:
-    """Make a run on a worker of Dask; see made()."""
-    try:
-        found: tuple[str, str | None, bool] = client.submit(
-            made, run, how, ranks, pure=False
-        ).result()
-        return found
-    except Exception as error:  # whatever a worker hands on
-        trouble = f"{type(error).__name__}: {error}"
-        return f"{run.study} {run.name}: {trouble}", trouble, False
-
-
 def make(runs: Sequence[StudyRun], how: How = How()) -> None:
     """Make runs, the longest first. One that cannot be made says why in its trouble.
     Raises RunError where no worker of Dask can be asked."""
@@ -272,13 +258,23 @@ def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> No
         begin = progress.begins.get(number, 0.0)
         return ordered[number].run.share_done(time.monotonic() - begin)
 
+    def there(function: Callable[..., Any], *words: Any) -> Any:
+        if client is None:
+            return function(*words)
+        return client.submit(function, *words, pure=False).result()
+
     def one(number: int, ranks: int | None) -> None:
         run = ordered[number]
         if how.needs_all and any(other.trouble for other in ordered):
             return
         progress.start(number)
-        found = made_by(client, run, how, ranks) if client else made(run, how, ranks)
-        said, run.trouble, run.is_stopped = found
+        try:
+            said, run.trouble, run.is_stopped = there(made, run, how, ranks)
+        except Exception as error:  # whatever a worker of Dask hands on
+            if client is None:
+                raise
+            run.trouble = f"{type(error).__name__}: {error}"
+            said = f"{run.study} {run.name}: {run.trouble}"
         if said:
             progress.say(said)
         progress.end(number)
@@ -289,5 +285,10 @@ def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> No
         for runs, jobs, ranks in sorted_shares:
             numbers = range(first, first + len(runs))
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-                list(pool.map(lambda number, r=ranks: one(number, r), numbers))
+                try:
+                    list(pool.map(lambda number, r=ranks: one(number, r), numbers))
+                except KeyboardInterrupt:
+                    if client is not None:  # else the programs end by themselves
+                        client.close()
+                    raise
             first += len(runs)
