@@ -87,6 +87,17 @@ class Overview(WithRuns):
         self.assertIn("4 positions, 3 computed, 2 of them feasible", page)
         self.assertGreater((self.path / "overview.png").stat().st_size, 5000)
 
+    def test_nothing_is_allowed(self) -> None:
+        """As where the plug meets the lid: suction ends there, as at any other limit,
+        and the picture is drawn."""
+        run = self.write("shut", 1e9)
+        part = mock.Mock(required=np.array([1, 2]), utilization=np.array([0.2, np.inf]))
+        part.governing.return_value = "plug meets the lid"
+        with mock.patch.object(park_study.verdict, "feasible_part", return_value=part):
+            row = park_study.row_of(run, self.path)
+        self.assertEqual((row.utilization, row.governed_by), (1, "plug meets the lid"))
+        park_study.draw(self.path / "overview.png", [row])
+
     def test_heads(self) -> None:
         for head, found in {
             "wall (mm)": ("wall", "mm"),

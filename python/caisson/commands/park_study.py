@@ -110,7 +110,8 @@ def with_numbers(row: Row, run: Results) -> Row:
     if not len(part.required):
         return row
     with np.errstate(invalid="ignore", divide="ignore"):
-        shares = np.nan_to_num(part.utilization)
+        # where nothing is allowed, as where the plug meets the lid, suction ends
+        shares = np.nan_to_num(part.utilization, posinf=1.0)
     i = int(np.argmax(shares))
     share = max(1.0, float(shares[i])) if said.end is not None else float(shares[i])
     name = said.reason or (part.governing(i) if share > 0 else "")
