@@ -10,7 +10,7 @@ from pathlib import Path
 from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
 from caisson.progress import span
 from caisson.ranks import cores
-from caisson.runner import Run, RunError, Status, read_parameters
+from caisson.runner import Run, RunError, Status
 from caisson.runs import How, StudyRun, make, survey
 
 
@@ -48,8 +48,7 @@ def scenes_of(best: Path) -> dict[str, Path]:
 def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
     """Return the runs of a band by estimate. Their directories are named after that of
     the best one. Raises RunError."""
-    given = [word for k, v in entries.items() for word in ("--set", f"{k}={v}")]
-    directory = Path(read_parameters([str(best), *given])["Output/Directory"])
+    directory = Run(best, entries).directory
     found = {}
     for estimate, scene in scenes_of(best).items():
         place = member_of(directory, estimate).resolve()
