@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls of the program: the only place that knows its command line."""
 import collections
+import contextlib
 import enum
 import functools
 import hashlib
@@ -339,6 +340,8 @@ class Run:
         """
         if is_locked(self.directory):
             raise RunError(f"another process computes in {self.directory}")
+        with contextlib.suppress(RunError):  # which the program says in the log
+            _ = self.key  # as the input is now, which may change while it runs
         how = ["--restart"] if self.restarts else self.make_room()
         command = [*self.command(ranks), *how]
         begin = time.monotonic()

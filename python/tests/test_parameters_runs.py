@@ -21,6 +21,7 @@ from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.ranks import cores
 from caisson.results import read_table
+from caisson.runner import Run
 from caisson.runs import execute
 from caisson.study import Options, Study, StudyError
 
@@ -267,6 +268,26 @@ class Commands(WithFiles):
         self.assertIn("2 runs, about 60 s on one core\n", self.study("--list")[1])
         self.write(PHI + "values = [-1]")
         self.assertIn("1 runs, duration not known", self.study("--list")[1])
+
+
+class Edited(WithFiles):
+    """A scene that its user edits while it runs."""
+
+    def test_its_result_is_of_the_scene_before(self) -> None:
+        """So that the next call runs it again."""
+        text, value = self.path / "program", self.path / "value"
+        head = "subsection Output\n  set Directory = x\n  set Value = %s\nend\n"
+        text.write_text(
+            f'#!/bin/sh\ncase "$*" in *--print*) printf "{head}" $(cat {value});;'
+            f" *) echo 2 >{value};; esac\n"
+        )
+        text.chmod(0o755)
+        value.write_text("1")
+        for is_complete in (False, True):  # the second one is of the new scene
+            run = Run(self.path / "a.prm", {}, self.path / "r", program=text)
+            self.assertEqual(run.execute(), 0)
+            again = Run(self.path / "a.prm", {}, self.path / "r", program=text)
+            self.assertEqual(again.is_complete(), is_complete)
 
 
 class Evaluation(WithFiles):
