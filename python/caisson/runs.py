@@ -96,7 +96,7 @@ class StudyRun:
         if record is None:
             if self.trouble is None and not self.log.is_file():
                 return NOT_RUN, ""
-            return "no result", self.last_words or (self.trouble or "")
+            return "no result", self.trouble or self.last_words
         if record.get("entries") != self.run.entry_texts():
             return "out of date", "the entries of the study have changed since"
         if record["status"] != Status.SUCCESS:
@@ -122,7 +122,7 @@ class StudyRun:
         try:
             status = self.run.execute(time_limit, ranks)
         except (RunError, OSError) as error:
-            self.trouble = f"{type(error).__name__}: {error}"
+            self.trouble = str(error)
             return f"{self.study} {self.name}: {self.trouble}".lstrip()
         self.is_stopped = status == Status.STOPPED
         record = self.run.completion_record()
@@ -273,7 +273,7 @@ def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> No
         except Exception as error:  # whatever a worker of Dask hands on
             if client is None:
                 raise
-            run.trouble = f"{type(error).__name__}: {error}"
+            run.trouble = disk.words_of(error)
             said = f"{run.study} {run.name}: {run.trouble}"
         if said:
             progress.say(said)

@@ -172,11 +172,13 @@ class Commands(WithFiles):
         place.mkdir(parents=True)
         (place / "precious").touch()
         (place.parent / "table.csv").write_text("precious")
+        (place / "log").write_text("pen 0.1 m | tip 1 kN")
         with open(place / ".lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             status, said = self.study()
         self.assertEqual(status, 1)
-        self.assertIn("another process computes in", said)
+        self.assertIn("s Friction angle 30: another process computes in", said)
+        self.assertIn("Friction angle 30: no result, another process computes", said)
         self.assertIn("kept: ", said)
         kept = place.parent / "earlier_1/table.csv"
         self.assertEqual(kept.read_text(encoding="utf-8"), "precious")
