@@ -65,13 +65,19 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
 
 
 def add_running_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of how runs are made."""
+    """Add the options of which runs are made, and where."""
     add = parser.add_argument
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
-    text = "runs at a time, default: what is fastest for all of them"
-    add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
     add("--part", type=part_of, metavar="K/N", help=text)
+    add_machine_arguments(parser)
+
+
+def add_machine_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of where runs are made."""
+    add = parser.add_argument
+    text = "runs at a time, default: what is fastest for all of them"
+    add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run on the workers of this scheduler of Dask, such as tcp://host:8786"
     add("--dask", default="", metavar="ADDRESS", help=text)
     add("--program", type=Path, default=PROGRAM, help="caisson_mpm")

@@ -380,6 +380,14 @@ class Plan(unittest.TestCase):
         self.assertEqual(plan.sized(2.0), Size(4000, 48.0, 8.0))
         self.assertEqual(plan.sized(1.0, 2.0), Size(1000, 12.0, 2.0))
 
+    def test_options(self) -> None:
+        """Those of where runs are made are the same as those of a study."""
+        parser = argparse.ArgumentParser()
+        command.add_arguments(parser)
+        words = ["a.prm", "--jobs", "3", "--dask", "tcp://host:8786"]
+        found = parser.parse_args(words)
+        self.assertEqual((found.jobs, found.dask), (3, "tcp://host:8786"))
+
     def test_durations(self) -> None:
         for text, seconds in {
             "90s": 90,
@@ -526,7 +534,7 @@ class RunsOfWindows(unittest.TestCase):
     def execute(self, again: bool = False) -> None:
         """Make the runs of the plan."""
         with contextlib.redirect_stdout(io.StringIO()):
-            self.plan.execute([self.whole], again)
+            self.plan.execute([self.whole], How(again, jobs=1))
 
     def test_again(self) -> None:
         """What is missing runs; a window with a result is repeated with --again only,

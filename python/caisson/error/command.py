@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import disk, error_bounds
+from caisson import disk, error_bounds, study_command
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
@@ -79,7 +79,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
-    add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
+    study_command.add_machine_arguments(parser)
     text = "directory of the runs, default: results/error_bar/FILE"
     add("--results", type=Path, help=text)
 
@@ -386,13 +386,14 @@ class Plan:
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
 
-    def execute(self, runs: list[StudyRun], again: bool) -> None:
+    def execute(self, runs: list[StudyRun], how: How = How()) -> None:
         """Run what is not complete. Raises StudyError where a run has no result, or a
         window does not reach its depth."""
         self.keep_size()
         parts = {run.name: self.parts_of(run) for run in runs}
         every = [part for of_run in parts.values() for part in of_run]
-        make(survey(every, again, resumes=True), How(again, needs_all=True))
+        to_do = survey(every, how.again, resumes=True)
+        make(to_do, dataclasses.replace(how, needs_all=True))
         if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
             raise StudyError(f"{cause.name}: {cause.trouble}")
@@ -478,7 +479,8 @@ def main(arguments: argparse.Namespace) -> int:
         raise StudyError(
             f"{plan.output} exists. Choose --output, or replace it by --overwrite"
         )
-    plan.execute(study.runs, arguments.again)
+    how = How(arguments.again, arguments.jobs, arguments.dask)
+    plan.execute(study.runs, how)
     set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
         error_bar.evaluate([study], Options(), 0)

@@ -92,7 +92,7 @@ def mesh_for(
         left -= cost
         names[r] = f"refinement {r:g}"
         study = plan.study(names)
-        plan.execute(study.runs, False)
+        plan.execute(study.runs)
         if len(names) < 2:
             continue
         study.run(names[r]).name = command.DEFAULT  # the finest one
