@@ -46,6 +46,11 @@ class Outcome:
         return self.status == COMPLETE
 
     @property
+    def trouble(self) -> str:
+        """Its name, how it ended, and why."""
+        return f"{self.name}: {self.status}, {self.why}".rstrip(", ")
+
+    @property
     def rest(self) -> float | None:
         """The penetration by weight alone (m), where suction follows it: where the mean
         of the required suction passes 0, as single rows pass it again and again."""
