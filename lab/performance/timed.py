@@ -16,7 +16,8 @@ from typing import Any
 from caisson.paths import ROOT
 from caisson.results import Results, Table
 from caisson.runner import Status, environment
-from caisson.study import Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study, StudyError
 
 POLL = 0.1  # s
 

@@ -23,7 +23,8 @@ import numpy as np
 from caisson import table
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import Status
-from caisson.study import Options, Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study
 from caisson import disk
 
 NAME = "stability"

@@ -22,7 +22,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson.results import ResultsError
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from lab import outcome
 
 NAME = "drainage"

@@ -161,10 +161,10 @@ def short_numbers(history: Table) -> dict[tuple[str, float], float]:
 def short_way(run: Run) -> Entries | None:
     """Return the entries that make a run of a scene short, None where the end is no
     penetration."""
-    end = run.parameter("Time/End penetration", run.program)
+    end = run.in_effect["Time/End penetration"]
     if run.scene.stem in AFTER or end == "never":
         return None
-    start = float(run.parameter("Rigid body/Initial penetration", run.program))
+    start = float(run.in_effect["Rigid body/Initial penetration"])
     if float(end) < start:  # it is pulled
         return None
     way = float(end) - start

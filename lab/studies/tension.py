@@ -16,7 +16,8 @@ from matplotlib.figure import Figure
 
 from caisson import evaluation
 from caisson.results import ResultsError
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from lab import outcome
 
 from .drainage import group_of

@@ -29,7 +29,8 @@ import numpy as np
 
 from caisson import error_bounds
 from caisson.results import ResultsError, read_table
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from caisson.table import number
 from caisson.error import error_bar
 from lab import outcome

@@ -20,7 +20,8 @@ from matplotlib.figure import Figure
 from caisson import curves, table
 from caisson.paths import short
 from caisson.results import ResultsError
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from caisson import disk
 from caisson.error.error_bar import refinement_of
 from caisson.error.mesh_error import mesh_error

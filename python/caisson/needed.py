@@ -25,7 +25,7 @@ MODULES = {
 TABLES = {"pandas": "python3-pandas"}
 # of cone tests in workbooks (.xlsx), without which all else works
 WORKBOOKS = {"openpyxl": "python3-openpyxl"}
-# of studies on many machines (caisson.dask_runs)
+# of studies on many machines (caisson.runs)
 DASK = {"distributed": "python3-distributed"}
 # of the response surface of a study, without which its quantiles are those of its runs
 SURFACES = {"sklearn": "python3-sklearn"}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls of the program: the only place that knows its command line."""
 import collections
+import contextlib
 import enum
 import functools
 import hashlib
@@ -180,15 +181,17 @@ class Run:
         the results, that of the scene if None; ranks and their binding
         ("none" or "core") as of mpirun."""
         self.scene, self.entries = scene, dict(entries or {})
-        self.directory = directory or Path(self.parameter("Output/Directory", program))
         self.ranks, self.binding, self.program = ranks, binding, program
         self.restarts = False  # from its checkpoint
+        self.directory = directory or Path(self.in_effect["Output/Directory"])
 
-    def parameter(self, name: str, program: Path) -> str:
-        """Return one entry in effect."""
-        return read_parameters([str(self.scene), *set_options(self.entries)], program)[
-            name
-        ]
+    @functools.cached_property
+    def in_effect(self) -> dict[str, str]:
+        """All entries in effect. Raises RunError where the program refuses the
+        input."""
+        return read_parameters(
+            [str(self.scene), *set_options(self.entries)], self.program
+        )
 
     def command(self, ranks: int | None = None) -> list[str]:
         """Return the command line; ranks: others than those of the run."""
@@ -227,8 +230,7 @@ class Run:
     def key(self) -> str:
         """A hash of what the result depends on. Raises RunError where the program
         refuses the input."""
-        entries = read_parameters(self.arguments(), self.program)
-        entries.pop("Output/Directory")
+        entries = {k: v for k, v in self.in_effect.items() if k != "Output/Directory"}
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -310,7 +312,7 @@ class Run:
     def stop(self, process: "subprocess.Popen[str]") -> None:
         """Stop a call with a checkpoint, and wait for its end: by the stop file, as
         mpirun ends ranks that get a signal before they have written theirs."""
-        name = self.parameter("Run control/Stop file", self.program)
+        name = self.in_effect["Run control/Stop file"]
         if name and self.directory.is_dir():
             (self.directory / name).touch()
         else:
@@ -338,6 +340,8 @@ class Run:
         """
         if is_locked(self.directory):
             raise RunError(f"another process computes in {self.directory}")
+        with contextlib.suppress(RunError):  # which the program says in the log
+            _ = self.key  # as the input is now, which may change while it runs
         how = ["--restart"] if self.restarts else self.make_room()
         command = [*self.command(ranks), *how]
         begin = time.monotonic()

@@ -49,23 +49,20 @@ the runs of a study itself, from keys of its own. A key that is not known is an 
 so that no misspelled one is left out in silence.
 
 A run that is complete is not repeated while the program, all entries in effect
-and the ranks are the same (caisson.runner.Run).
+and the ranks are the same (caisson.runner.Run). One of a user's study that was stopped
+goes on from its checkpoint.
 """
 import collections
-import concurrent.futures
 import re
-import time
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from caisson.paths import PROGRAM
-from caisson.progress import Progress
-from caisson.ranks import Size
-from caisson.results import Results
-from caisson.runner import Entries, Run, RunError, Status
+from caisson.runner import Entries, Run
+from caisson.runs import StudyRun
 from caisson import disk
 from caisson.disk import InputError
 
@@ -84,79 +81,6 @@ MakeRuns = Callable[[dict[str, Any], Run], list[dict[str, Any]]]
 
 class StudyError(InputError):
     """What is wrong with a study file; the text is for the user."""
-
-
-@dataclass
-class StudyRun:
-    """One run of a study, with what the study says of it.
-
-    variant and mesh are "" where the study has none; seconds is 0 where the file does
-    not say them, and size has what the program says. trouble says why there is no
-    result to evaluate, None if there is one.
-    """
-
-    study: str  # its id
-    name: str
-    variant: str
-    mesh: str
-    seconds: float
-    settings: dict[str, Any]
-    run: Run
-    trouble: str | None = None
-    size: Size = Size()
-    is_stopped: bool = False  # by a stop file, say
-
-    @property
-    def results(self) -> Results:
-        """What the run has left."""
-        return Results(self.run.directory)
-
-    @property
-    def duration(self) -> float:
-        """About how long it takes on one core (s), 0 if not known."""
-        return self.seconds or self.size.seconds
-
-    def execute(
-        self,
-        again: bool = False,
-        time_limit: float | None = None,
-        ranks: int | None = None,
-        say: Callable[[str], None] = print,
-    ) -> None:
-        """Run it unless it is complete, and say what it cost."""
-        if not again and self.run.is_complete():
-            return
-        status = self.run.execute(time_limit, ranks)
-        self.is_stopped = status == Status.STOPPED
-        record = self.run.completion_record()
-        if record is None:
-            how = "ended early" if status is None else f"exit status {status}"
-            how = "stopped" if self.is_stopped else how
-            log = self.run.directory / "log"
-            said = disk.read_text(log).split("\n") if log.is_file() else []
-            last = next((x.strip() for x in reversed(said) if x.strip()), "")
-            reason = (
-                f": {disk.one_line(last)[:300]}" if status == Status.BAD_INPUT else ""
-            )
-            self.trouble = f"{how}, see {log}{reason}"
-        cost = f"{record['wall_s']:.0f} s" if record else self.trouble
-        if record and record["status"] == Status.FAILURE:
-            cost = f"{cost}, ended with a failure"
-        say(f"{self.study} {self.name}".rstrip() + f": {cost}")
-
-    @property
-    def status(self) -> Status | None:
-        """The exit status of the finished run; without one None, and trouble says
-        why."""
-        record = self.run.completion_record()
-        if record is None:
-            self.trouble = self.trouble or f"no result in {self.run.directory}"
-            return None
-        return Status(record["status"])
-
-
-# runs, how many of them at a time, and their ranks, None for their own
-Share = tuple[Sequence[StudyRun], int, int | None]
 
 
 @dataclass
@@ -344,59 +268,3 @@ def file_name(text: str) -> str:
     if text and not name.strip("."):
         raise StudyError(f"{text!r} is no name for a directory: use letters or digits")
     return name
-
-
-def check_is_own(directory: Path, study: Study, names: Iterable[str]) -> None:
-    """Raise StudyError where a directory has files of these names, which the study is
-    going to write, and none of its runs: they are of something else."""
-    found = [path for path in map(directory.joinpath, names) if path.exists()]
-    is_own = any((run.run.directory / Run.RECORD).is_file() for run in study.runs)
-    if found and not is_own:
-        raise StudyError(
-            f"{found[0]} is there, and is not of the study {study.id}, which has no run"
-            " there: move the file, or choose other --results or another id"
-        )
-
-
-def longest_first(runs: Sequence[StudyRun]) -> list[StudyRun]:
-    """Return the runs in the order in which they begin."""
-    return sorted(runs, key=lambda run: -run.duration)
-
-
-def execute(
-    shares: Sequence[Share],
-    again: bool = False,
-    time_limit: float | None = None,
-    needs_all: bool = False,
-) -> None:
-    """Run all that are not complete, share by share, in each of them the longest first.
-    A run that cannot be made says why in its trouble; if all are needed, none begins
-    after it. A bar, or in a log file a line now and then, shows how far all of them
-    are."""
-    sorted_shares = [(longest_first(runs), n, ranks) for runs, n, ranks in shares]
-    ordered = [run for runs, _, _ in sorted_shares for run in runs]
-
-    def share_of(number: int) -> float:
-        begin = progress.begins.get(number, 0.0)
-        return ordered[number].run.share_done(time.monotonic() - begin)
-
-    def one(number: int, ranks: int | None) -> None:
-        run = ordered[number]
-        if needs_all and any(other.trouble for other in ordered):
-            return
-        progress.start(number)
-        try:
-            run.execute(again, time_limit, ranks, progress.say)
-        except (RunError, OSError) as error:
-            run.trouble = f"{type(error).__name__}: {error}"
-            progress.say(f"{run.study} {run.name}: {run.trouble}".lstrip())
-        progress.end(number)
-
-    progress = Progress([run.duration for run in ordered], share_of=share_of)
-    with progress:
-        first = 0
-        for runs, jobs, ranks in sorted_shares:
-            numbers = range(first, first + len(runs))
-            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-                list(pool.map(lambda number, r=ranks: one(number, r), numbers))
-            first += len(runs)

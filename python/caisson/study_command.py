@@ -6,7 +6,6 @@ go to results/KIND. Runs that are complete there are not repeated while program,
 entries and ranks are the same.
 """
 import argparse
-import concurrent.futures
 import importlib
 import re
 import time
@@ -14,29 +13,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 
-from caisson import dask_runs, disk, needed
+from caisson import disk, needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import span
-from caisson.ranks import Size, cores, plan
-from caisson.runner import RunError, Status
-from caisson.study import (
-    Options,
-    Reader,
-    Share,
-    Study,
-    StudyError,
-    StudyRun,
-    execute,
-    file_name,
-    longest_first,
-    read_toml,
-)
+from caisson.runner import Status
+from caisson.runs import How, StudyRun, make, survey
+from caisson.study import Options, Reader, Study, StudyError, file_name, read_toml
 
 # those of users; the laboratory has more
 KINDS = {"parameters": "caisson.parameters", "park": "caisson.commands.park_study"}
-# runs for each core above which several ranks gain nothing that matters, and the
-# duration of a run (s) below which it is not worth to ask for its size
-FEW, LONG = 4, 20
 
 
 def whole_number(text: str) -> int:
@@ -63,11 +48,6 @@ def part_of(text: str) -> tuple[int, int]:
     return number, of
 
 
-def jobs_at_hand(runs: Sequence[StudyRun]) -> int:
-    """Return how many runs with ranks of their own the cores bear at a time."""
-    return max(1, cores() // max(run.run.ranks for run in runs))
-
-
 def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> None:
     """Add the options of all studies; file: the study, an argument if None."""
     if file is None:
@@ -79,16 +59,28 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     add("--only", type=pattern, default="", metavar="REGEX", help=text)
     add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
-    add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
-    text = "runs at a time, default: what is fastest for all of them"
-    add("--jobs", type=whole_number, metavar="N", help=text)
+    add("--results", type=Path, help="directory of the results")
+    add_running_arguments(parser)
+
+
+def add_running_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of which runs are made, and where."""
+    add = parser.add_argument
+    add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
     text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
     add("--part", type=part_of, metavar="K/N", help=text)
+    add_machine_arguments(parser)
+
+
+def add_machine_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of where runs are made."""
+    add = parser.add_argument
+    text = "runs at a time, default: what is fastest for all of them"
+    add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run on the workers of this scheduler of Dask, such as tcp://host:8786"
-    add("--dask", metavar="ADDRESS", help=text)
+    add("--dask", default="", metavar="ADDRESS", help=text)
     add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
-    add("--results", type=Path, help="directory of the results")
 
 
 def module_of(file: Path, kinds: Mapping[str, str] = KINDS) -> ModuleType:
@@ -110,21 +102,13 @@ def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
     return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
 
 
-def query_size(run: StudyRun) -> None:
-    """Ask the program for the size of a run that it accepts."""
-    try:
-        run.size = run.run.validate()
-    except (RunError, OSError):
-        pass  # the run itself will say why
-
-
 def cost_of(study: Study) -> str:
     """Return how long the runs of a study take on one core, as a range. Where the file
     does not say it, the program is asked for the first, the middle and the last."""
     silent = [run for run in study.runs if not run.seconds]
     asked = silent[:: max(1, (len(silent) - 1) // 2)][:3]
     for run in asked:
-        query_size(run)
+        run.query_size()
     found = [run.duration for run in asked]
     if not all(found):
         return "duration not known"
@@ -174,59 +158,31 @@ def run_and_evaluate(
             raise StudyError(f"studies of kind {module.NAME!r} have no parts")
         return int(module.measure(studies, options, arguments.evaluate))
     if not arguments.evaluate:
-        jobs = arguments.jobs or getattr(module, "JOBS", None)
-        if hasattr(module, "check"):
-            module.check(studies, jobs or cores())
-        runs = [run for study in studies for run in study.runs]
-        if arguments.part:
-            runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
-        limit = getattr(module, "TIME_LIMIT", None)
-        to_do = to_do_of(runs, arguments.again)
-        if arguments.dask:
-            dask_runs.execute(to_do, arguments.dask, arguments.again, limit)
-        else:
-            execute(shares_of(to_do, jobs), arguments.again, limit)
+        runs = make_missing(module, studies, arguments)
         if arguments.part:
             return report_part(runs, arguments)
     minutes = (time.monotonic() - begin) / 60
     return int(module.evaluate(studies, options, minutes))
 
 
-def to_do_of(runs: Sequence[StudyRun], again: bool) -> list[StudyRun]:
-    """Return the runs that are not complete, the longest first. Of a few long ones,
-    which several ranks may make faster, the sizes are asked for."""
-
-    def is_to_do(run: StudyRun) -> bool:
-        return again or not run.run.is_complete()
-
-    with concurrent.futures.ThreadPoolExecutor(cores()) as pool:
-        chosen = list(pool.map(is_to_do, runs))
-        found = [run for run, is_chosen in zip(runs, chosen) if is_chosen]
-        if len(found) <= FEW * cores():
-            long = [run for run in found if run.seconds >= LONG]
-            list(pool.map(query_size, [run for run in long if not run.size.points]))
-    return longest_first(found)
-
-
-def shares_of(runs: Sequence[StudyRun], jobs: int | None) -> list[Share]:
-    """Return how runs, the longest first, share the cores, and say it; jobs: at a time,
-    None for what is fastest. Runs whose study names their ranks have those."""
-    times = [run.duration for run in runs]
-    shares: list[Share]
-    if jobs or any("ranks" in run.settings for run in runs):
-        jobs = jobs or jobs_at_hand(runs)
-        how, seconds = f"{jobs} at a time", sum(times) / jobs
-        shares = [(runs, jobs, None)]
-    else:
-        chosen = plan([Size(r.size.points, r.duration) for r in runs], cores())
-        how, seconds, n = str(chosen), chosen.seconds, chosen.alone
-        at_a_time = chosen.cores // chosen.ranks
-        shares = [(runs[:n], cores(), None), (runs[n:], at_a_time, chosen.ranks)]
-    least = sum(run.seconds or run.size.least for run in runs) / (sum(times) or 1)
-    about = f", about {span(least * seconds, seconds)}" if all(times) else ""
-    text = f"runs to do: {len(runs)}{about}, {how}" if runs else "runs to do: 0"
-    print(text, flush=True)
-    return shares
+def make_missing(
+    module: ModuleType, studies: list[Study], arguments: argparse.Namespace
+) -> list[StudyRun]:
+    """Make the runs that are not complete; return those of the part, or all. Raises
+    StudyError where the kind refuses one of them."""
+    if hasattr(module, "check"):
+        module.check(studies)
+    runs, again = [run for study in studies for run in study.runs], arguments.again
+    is_own = module.NAME in KINDS
+    to_do = survey(runs, again, resumes=is_own, asks_all=is_own)
+    if hasattr(module, "refuse"):
+        module.refuse(studies, to_do)
+    if arguments.part:
+        runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
+    jobs = arguments.jobs or getattr(module, "JOBS", None)
+    limit = getattr(module, "TIME_LIMIT", None)
+    make([x for x in to_do if x in runs], How(again, jobs, arguments.dask, limit))
+    return runs
 
 
 def report_part(runs: Sequence[StudyRun], arguments: argparse.Namespace) -> int:

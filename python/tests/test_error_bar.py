@@ -4,7 +4,6 @@ import argparse
 import contextlib
 import io
 import tempfile
-import time
 import unittest
 import unittest.mock
 from pathlib import Path
@@ -17,7 +16,8 @@ from caisson import curves, error_bounds
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
-from caisson.study import Options, Reader, Study, StudyError, execute
+from caisson.runs import How, StudyRun, make
+from caisson.study import Options, Reader, Study, StudyError
 from caisson.error import command, error_bar, windows
 from caisson.error.mesh_error import mesh_error
 from lab import verification
@@ -334,14 +334,17 @@ class Plan(unittest.TestCase):
 
     def test_failed_run(self) -> None:
         """None begins after it, as the bar needs all of them."""
-        runs = [unittest.mock.Mock(trouble=None, duration=9 - i) for i in range(3)]
-        runs[1].run.execute.side_effect = RunError("a window ended early")
-        for run in runs:
-            run.execute.side_effect = run.run.execute
+        calls = [
+            unittest.mock.Mock(**{"is_complete.return_value": False}) for _ in "abc"
+        ]
+        calls[1].execute.side_effect = RunError("a window ended early")
+        runs = [StudyRun("s", "", "", "", 9 - i, {}, c) for i, c in enumerate(calls)]
+        for call in calls:
+            call.completion_record.return_value = {"wall_s": 1, "status": 0}
         with contextlib.redirect_stdout(io.StringIO()):
-            execute([(runs, 1, None)], needs_all=True)
-        self.assertIn("a window ended early", runs[1].trouble)
-        self.assertEqual([run.execute.called for run in runs], [True, True, False])
+            make(runs, How(jobs=1, needs_all=True))
+        self.assertIn("a window ended early", str(runs[1].trouble))
+        self.assertEqual([call.execute.called for call in calls], [True, True, False])
 
     def test_caution_with_suction(self) -> None:
         """Windows do not see what it has done to the soil."""
@@ -376,6 +379,14 @@ class Plan(unittest.TestCase):
         plan.size, plan.seconds = Size(1000, 60.0, 10.0), 6.0
         self.assertEqual(plan.sized(2.0), Size(4000, 48.0, 8.0))
         self.assertEqual(plan.sized(1.0, 2.0), Size(1000, 12.0, 2.0))
+
+    def test_options(self) -> None:
+        """Those of where runs are made are the same as those of a study."""
+        parser = argparse.ArgumentParser()
+        command.add_arguments(parser)
+        words = ["a.prm", "--jobs", "3", "--dask", "tcp://host:8786"]
+        found = parser.parse_args(words)
+        self.assertEqual((found.jobs, found.dask), (3, "tcp://host:8786"))
 
     def test_durations(self) -> None:
         for text, seconds in {
@@ -450,13 +461,15 @@ class Windows(unittest.TestCase):
                 place = Path(folder, str(i))
                 write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
                 results.append(Results(place))
-            run = windows.WindowedRun.__new__(windows.WindowedRun)
-            run.directory, run.entries = Path(folder), {}
-            run.windows = [windows.Window(0.64 + i, 1.0 + i) for i in (0, 1)]
-            run.depths = [1.0, 2.0, 3.0]
-            run.write(results, "f00d")
+            run = Run(Path("a.prm"), {}, Path(folder))
+            ways = [windows.Window(0.64 + i, 1.0 + i) for i in (0, 1)]
+            depths = [1.0, 2.0, 3.0]
+            with unittest.mock.patch.object(
+                windows, "query", return_value="# fingerprint: f00d"
+            ):
+                windows.write_means(run, ways, depths, results)
             found = Results(run.directory)
-            means = curves.forces_at(found.history, "F", np.array(run.depths))
+            means = curves.forces_at(found.history, "F", np.array(depths))
             np.testing.assert_allclose(means, [100, 300, 300])
             self.assertEqual(list(found.history), ["time_s", "penetration_m", "F"])
             self.assertEqual(found.summary["wall_time_s"], 4.0)
@@ -468,6 +481,7 @@ class Part(Run):
 
     def __init__(self, directory: Path, status: Status | None) -> None:
         self.directory, self.status, self.calls = directory, status, 0
+        self.ranks, self.restarts = 1, False
         self.record: dict[str, Any] | None = None
 
     def is_complete(self) -> bool:
@@ -494,45 +508,44 @@ class RunsOfWindows(unittest.TestCase):
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
-        path = Path(temporary.name)
-        self.whole = windows.WindowedRun.__new__(windows.WindowedRun)
-        self.whole.directory, self.whole.entries = path, {}
-        self.whole.scene = self.whole.program = path
-        self.whole.windows = [windows.Window(0.64, 1.0), windows.Window(1.64, 2.0)]
-        self.whole.depths = [1.0, 2.0]
-        self.whole.key = "k"
-        known = unittest.mock.patch.object(windows, "fingerprint", return_value="f00d")
-        known.start()
-        self.addCleanup(known.stop)
+        self.plan = command.Plan.__new__(command.Plan)
+        self.plan.results = path = Path(temporary.name)
+        self.plan.scene = self.plan.program = path / "a.prm"
+        self.plan.entries = {}
+        self.plan.windows = [windows.Window(0.64, 1.0), windows.Window(1.64, 2.0)]
+        self.whole = self.plan.run("default", {}, Size(9, 8.0, 4.0), self.plan.windows)
+        self.parts_of = unittest.mock.Mock()
+        for patch in (
+            unittest.mock.patch.object(self.plan, "parts_of", self.parts_of),
+            unittest.mock.patch.object(self.plan, "keep_size"),
+            unittest.mock.patch.object(windows, "query", return_value=""),
+        ):
+            patch.start()
+            self.addCleanup(patch.stop)
 
     def give(self, *statuses: Status | None) -> list[Part]:
         """Let the windows end in this way; return them."""
-        path = self.whole.directory
-        parts = [Part(path / str(i), status) for i, status in enumerate(statuses)]
-        self.whole.parts = list[Run](parts)
+        place = self.whole.run.directory
+        parts = [Part(place / str(i), status) for i, status in enumerate(statuses)]
+        runs = [StudyRun("s", p.directory.name, "", "", 1, {}, p) for p in parts]
+        self.parts_of.return_value = runs
         return parts
 
-    def test_again(self) -> None:
-        """What is missing runs; a run without anything missing is repeated, since it
-        is asked for with --again only."""
-        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
-        first.execute()
-        self.assertEqual(self.whole.execute(), Status.SUCCESS)
-        self.assertTrue(self.whole.is_complete())
-        self.assertEqual((first.calls, second.calls), (1, 1))
-        self.assertEqual(self.whole.execute(), Status.SUCCESS)
-        self.assertEqual((first.calls, second.calls), (2, 2))
+    def execute(self, again: bool = False) -> None:
+        """Make the runs of the plan."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.plan.execute([self.whole], How(again, jobs=1))
 
-    def test_share_done(self) -> None:
-        """One window is over, and the second says that half of its time is left."""
+    def test_again(self) -> None:
+        """What is missing runs; a window with a result is repeated with --again only,
+        and the means are there after each of them."""
         first, second = self.give(Status.SUCCESS, Status.SUCCESS)
         first.execute()
-        second.directory.mkdir()
-        (second.directory / "log").write_text("| ETA 00:00:30\n", encoding="utf-8")
-        self.whole.began = time.monotonic() - 30
-        self.assertAlmostEqual(self.whole.share_done(500.0), 0.75, places=2)
-        second.execute()
-        self.assertEqual(self.whole.share_done(500.0), 1.0)
+        self.execute()
+        self.assertEqual((first.calls, second.calls), (1, 1))
+        self.assertEqual(self.whole.results.summary["wall_time_s"], 4.0)
+        self.execute(again=True)
+        self.assertEqual((first.calls, second.calls), (2, 2))
 
     def test_a_window_that_breaks_off(self) -> None:
         """It is no result, also when the command is given again; the message names the
@@ -540,9 +553,22 @@ class RunsOfWindows(unittest.TestCase):
         for status in (Status.FAILURE, Status.STOPPED, None):
             self.give(Status.SUCCESS, status)
             for _ in range(2):
-                with self.assertRaisesRegex(RunError, "window ended early.*/1/log"):
-                    self.whole.execute()
-                self.assertFalse(self.whole.is_complete())
+                with self.assertRaisesRegex(StudyError, "/1/log"):
+                    self.execute()
+                self.assertFalse((self.whole.run.directory / "history.csv").exists())
+
+    def test_parts(self) -> None:
+        """Each window has a share of the time, and a folder of its own."""
+        self.plan.entries = dict(Windows.THIN)
+        parts = command.Plan.parts_of(self.plan, self.whole)
+        self.assertEqual([part.duration for part in parts], [4.0, 4.0])
+        names = [part.run.directory.name for part in parts]
+        self.assertEqual(names, ["to_1_m", "to_2_m"])
+        for part, end in zip(parts, (1.0, 2.0)):
+            self.assertEqual(part.run.entries["Time/End penetration"], end)
+            self.assertEqual(part.run.entries["Output/Frame interval"], "never")
+        other = self.plan.run("default", {})
+        self.assertEqual(command.Plan.parts_of(self.plan, other), [other])
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ from caisson import study_command
 from caisson.parameters.distributions import Distribution
 from caisson.parameters.formula import Formula, FormulaError
 from caisson.parameters.sampling import correlations_of
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 
 SHARES = (np.arange(20000) + 0.5) / 20000
 PHI = '[parameters."Soil/Friction angle"]\n'

@@ -16,12 +16,14 @@ import numpy as np
 from synthetic import write_run
 
 from caisson import __main__ as program
-from caisson import error_bounds, parameters, progress, study_command
+from caisson import error_bounds, parameters, progress, runs, study_command
 from caisson.parameters import effects, pictures, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.ranks import cores
 from caisson.results import read_table
-from caisson.study import Options, Study, StudyError, execute
+from caisson.runner import Run
+from caisson.runs import execute
+from caisson.study import Options, Study, StudyError
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 HEAD = 'kind = "parameters"\nscene = "a.prm"\n'
@@ -169,15 +171,17 @@ class Commands(WithFiles):
         place = self.path / "results/s/Friction_angle_30"
         place.mkdir(parents=True)
         (place / "precious").touch()
-        (place.parent / "table.csv").touch()
-        status, said = self.study()
-        self.assertIn("table.csv is there, and is not of the study s", said)
-        (place.parent / "table.csv").unlink()
+        (place.parent / "table.csv").write_text("precious")
+        (place / "log").write_text("pen 0.1 m | tip 1 kN")
         with open(place / ".lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             status, said = self.study()
         self.assertEqual(status, 1)
-        self.assertIn("another process computes in", said)
+        self.assertIn("s Friction angle 30: another process computes in", said)
+        self.assertIn("Friction angle 30: no result, another process computes", said)
+        self.assertIn("kept: ", said)
+        kept = place.parent / "earlier_1/table.csv"
+        self.assertEqual(kept.read_text(encoding="utf-8"), "precious")
         self.assertTrue((place / "precious").exists())
         self.assertEqual(self.calls(), ["Friction_angle_34"])
         (place / "forces.png").touch()  # not of this run, which has not been made
@@ -187,6 +191,24 @@ class Commands(WithFiles):
         self.assertTrue((place / "precious").exists())
         self.assertFalse((place / "forces.png").exists())
 
+    def test_a_run_that_was_stopped(self) -> None:
+        """It goes on from its checkpoint, but with --again from its start."""
+        self.write(PHI + "values = [30, 34]")
+        place = self.path / "results/s/Friction_angle_30"
+        place.mkdir(parents=True)
+        (place / "checkpoint.info").touch()
+        self.assertIn("s Friction angle 30: goes on from its", self.study()[1])
+        self.assertEqual(self.calls(), ["Friction_angle_30+", "Friction_angle_34"])
+        (place / "run_key.json").unlink()
+        self.study("--again")
+        self.assertEqual(self.calls().count("Friction_angle_30+"), 1)
+        self.assertEqual(len(self.calls()), 4)
+
+    def jobs_of(self, study: Study) -> int:
+        """Return how many runs of a study are made at a time."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            return runs.shares_of(study.runs, None)[0][1]
+
     def test_jobs(self) -> None:
         """As many runs at a time as there are cores for their ranks."""
         self.write("ranks = 1000\n" + PHI + "values = [30]")
@@ -194,10 +216,10 @@ class Commands(WithFiles):
         file = self.path / "s.toml"
         module = study_command.module_of(file)
         (study,) = study_command.reader_of(file, options, module).studies()
-        self.assertEqual(study_command.jobs_at_hand(study.runs), 1)
+        self.assertEqual(self.jobs_of(study), 1)
         self.write(PHI + "values = [30]")
         (study,) = study_command.reader_of(file, options, module).studies()
-        self.assertEqual(study_command.jobs_at_hand(study.runs), cores())
+        self.assertEqual(self.jobs_of(study), cores())
 
     def test_last_runs_get_more_ranks(self) -> None:
         """Of three long runs on two cores, the last one is lent the core that is free;
@@ -209,7 +231,7 @@ class Commands(WithFiles):
         mpirun.chmod(0o755)
         path = f"{tools}:{os.environ['PATH']}"
         self.write(PHI + "values = [30, 32, 34]")
-        with mock.patch.object(study_command, "cores", return_value=2), mock.patch.dict(
+        with mock.patch.object(runs, "cores", return_value=2), mock.patch.dict(
             os.environ, {"PATH": path, "FAKE_PROGRAM_POINTS": "40000"}
         ):
             status, said = self.study()
@@ -248,6 +270,26 @@ class Commands(WithFiles):
         self.assertIn("2 runs, about 60 s on one core\n", self.study("--list")[1])
         self.write(PHI + "values = [-1]")
         self.assertIn("1 runs, duration not known", self.study("--list")[1])
+
+
+class Edited(WithFiles):
+    """A scene that its user edits while it runs."""
+
+    def test_its_result_is_of_the_scene_before(self) -> None:
+        """So that the next call runs it again."""
+        text, value = self.path / "program", self.path / "value"
+        head = "subsection Output\n  set Directory = x\n  set Value = %s\nend\n"
+        text.write_text(
+            f'#!/bin/sh\ncase "$*" in *--print*) printf "{head}" $(cat {value});;'
+            f" *) echo 2 >{value};; esac\n"
+        )
+        text.chmod(0o755)
+        value.write_text("1")
+        for is_complete in (False, True):  # the second one is of the new scene
+            run = Run(self.path / "a.prm", {}, self.path / "r", program=text)
+            self.assertEqual(run.execute(), 0)
+            again = Run(self.path / "a.prm", {}, self.path / "r", program=text)
+            self.assertEqual(again.is_complete(), is_complete)
 
 
 class Evaluation(WithFiles):
@@ -427,12 +469,12 @@ class Evaluation(WithFiles):
         found = self.outcomes(PHI + "values = [30]", "d", {})
         found.study.keys["cone"] = "cone.csv"
         with self.assertRaisesRegex(StudyError, "cone.csv, row 4: the depth of 1 m"):
-            parameters.check([found.study], 1)
+            parameters.check([found.study])
         (self.path / "cone.csv").write_text("0,1\n1,20\n")  # asks for an option
         with self.assertRaisesRegex(
             StudyError, "; or name the table that `caisson sug"
         ):
-            parameters.check([found.study], 1)
+            parameters.check([found.study])
 
     def test_observed(self) -> None:
         """What there is; what there is not is refused with the columns there are."""

@@ -15,10 +15,11 @@ import numpy as np
 from synthetic import write_run
 from test_log import END, SCENE, WEIGHT, history_of, AREA, BEST, DEPTH
 
-from caisson import dask_runs, needed
+from caisson import needed, runs
 from caisson.commands import park_rows, park_study
-from caisson.runner import Run
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runner import Run, RunError
+from caisson.runs import How, StudyRun, make
+from caisson.study import Options, Study
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
@@ -86,6 +87,17 @@ class Overview(WithRuns):
         self.assertIn("4 positions, 3 computed, 2 of them feasible", page)
         self.assertGreater((self.path / "overview.png").stat().st_size, 5000)
 
+    def test_nothing_is_allowed(self) -> None:
+        """As where the plug meets the lid: suction ends there, as at any other limit,
+        and the picture is drawn."""
+        run = self.write("shut", 1e9)
+        part = mock.Mock(required=np.array([1, 2]), utilization=np.array([0.2, np.inf]))
+        part.governing.return_value = "plug meets the lid"
+        with mock.patch.object(park_study.verdict, "feasible_part", return_value=part):
+            row = park_study.row_of(run, self.path)
+        self.assertEqual((row.utilization, row.governed_by), (1, "plug meets the lid"))
+        park_study.draw(self.path / "overview.png", [row])
+
     def test_heads(self) -> None:
         for head, found in {
             "wall (mm)": ("wall", "mm"),
@@ -102,17 +114,16 @@ class Dask(WithRuns):
 
     def test_without_it(self) -> None:
         with mock.patch.dict(sys.modules, {"distributed": None}):
-            with self.assertRaisesRegex(StudyError, "--dask: distributed missing: `"):
-                dask_runs.execute([self.run_of("a")], "tcp://127.0.0.1:1", False, None)
+            with self.assertRaisesRegex(RunError, "--dask: distributed missing: `"):
+                make([self.run_of("a")], How(dask="tcp://127.0.0.1:1"))
 
     @unittest.skipUnless(needed.is_there("distributed"), "needs python3-distributed")
     def test_two_workers(self) -> None:
         """All runs are made, and no run twice; one that fails says why."""
         from distributed import LocalCluster
 
-        runs = [self.run_of(name) for name in "abc"]
-        runs.append(self.run_of("d"))
-        runs[-1].run.entries["Soil/Nothing"] = 1
+        found = [self.run_of(name) for name in "abcd"]
+        found[-1].run.entries["Soil/Nothing"] = 1
         with (
             LocalCluster(
                 n_workers=2,
@@ -123,22 +134,22 @@ class Dask(WithRuns):
             ) as cluster,
             contextlib.redirect_stdout(io.StringIO()) as said,
         ):
-            address = cluster.scheduler_address
-            dask_runs.execute(runs, address, False, None)
-            dask_runs.execute(runs[:3], address, False, None)
+            how = How(dask=cluster.scheduler_address)
+            make(found, how)
+            make(found[:3], how)
         self.assertIn("runs to do: 4, 2 at a time by Dask", said.getvalue())
         calls = (self.path / "runs/calls").read_text().split()
         self.assertEqual(sorted(calls), ["a", "b", "c"])
-        self.assertTrue(all(run.run.is_complete() for run in runs[:3]))
-        self.assertIn("exit status 1, see", str(runs[-1].trouble))
+        self.assertTrue(all(run.run.is_complete() for run in found[:3]))
+        self.assertIn("exit status 1, see", str(found[-1].trouble))
 
     @unittest.skipUnless(needed.is_there("distributed"), "needs python3-distributed")
     def test_nobody_answers(self) -> None:
         with (
-            mock.patch.object(dask_runs, "WAIT", 1),
-            self.assertRaisesRegex(StudyError, "no scheduler answers at tcp"),
+            mock.patch.object(runs, "WAIT", 1),
+            self.assertRaisesRegex(RunError, "no scheduler answers at tcp"),
         ):
-            dask_runs.execute([], "tcp://127.0.0.1:1", False, None)
+            make([], How(dask="tcp://127.0.0.1:1"))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ from scipy.ndimage import uniform_filter1d
 
 from caisson import curves
 from caisson.paths import SCENES
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from caisson.design import dnv
 from caisson.design.cone import Profile
 from lab.validation.verdict import Row

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from lab.curves import final_mean
 from lab.validation.verdict import Row
 

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from caisson import curves
 from caisson.verdict import theory
 from caisson.results import read_table
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from lab.validation.verdict import Row
 
 ANGLES = (25, 40)  # of friction of the wall, degrees; 40: as rough as the sand

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson.results import Table, read_table
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from lab.validation.verdict import Row
 
 DIAMETER = 0.6  # m

@@ -14,7 +14,8 @@ from matplotlib.figure import Figure
 
 import caisson
 from caisson.results import Table
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from lab.validation.verdict import Row
 
 TUBE, WALL, CONE = 0.2, 0.008, 0.0357  # m, diameters and thickness

@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from caisson.study import Study, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Study
 from lab.validation.verdict import Row
 
 DIAMETER = 0.102  # m

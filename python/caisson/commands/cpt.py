@@ -20,7 +20,7 @@ from caisson import disk, suggest
 from caisson.commands import cpt_page, round_trip
 from caisson.design import cone_picture, cone_texts, interpretation
 from caisson.paths import RESULTS, scene_or_study, short
-from caisson.study import check_is_own, file_name
+from caisson.study import file_name
 from caisson.study_command import whole_number
 from caisson.suggest.cone import REACH
 from caisson.disk import InputError
@@ -125,8 +125,6 @@ def main(options: argparse.Namespace) -> int:
         report(cone.run())
     if not options.run:
         return 0
-    study = cpt_page.study_of(options.study, directory)
-    check_is_own(directory, study, [cpt_page.NAME])
     status = cpt_page.run_study(options.study, directory, options.jobs)
     name = f"{found.name} {printable(options.location)}".rstrip()
     facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]

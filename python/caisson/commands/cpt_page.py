@@ -31,10 +31,9 @@ WIDEST = 5  # layers side by side
 def run_study(file: Path, directory: Path, jobs: int | None) -> int:
     """Run what is missing of a study, into a directory; return its status."""
     parser = argparse.ArgumentParser(prog="caisson study")
-    study_command.add_arguments(parser)
-    words = [str(file), "--results", str(directory)]
-    words += ["--jobs", str(jobs)] if jobs else []
-    return study_command.main(parser.parse_args(words))
+    study_command.add_arguments(parser, file)
+    parser.set_defaults(results=directory, jobs=jobs)
+    return study_command.main(parser.parse_args([]))
 
 
 def study_of(file: Path, directory: Path) -> Study:
@@ -114,11 +113,7 @@ def reports_of(outcomes: Outcomes, directory: Path) -> list[tuple[str, str]]:
 
 def troubles_of(outcomes: Outcomes) -> list[str]:
     """Return what has failed, and the warnings of the runs."""
-    found = [
-        f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
-        for outcome in outcomes.all
-        if not outcome.is_complete
-    ]
+    found = [outcome.trouble for outcome in outcomes.all if not outcome.is_complete]
     warnings: dict[str, list[str]] = {}
     for outcome in outcomes.complete:
         for warning in chain(*run_review.warnings_of(outcome.run.results).values()):

@@ -32,9 +32,8 @@ from typing import Any
 from caisson import disk, study_command
 from caisson.commands import park_rows, park_study
 from caisson.disk import InputError
-from caisson.paths import PROGRAM, RESULTS, short
+from caisson.paths import RESULTS, short
 from caisson.study import file_name, read_toml
-from caisson.study_command import part_of, whole_number
 from caisson.suggest import percent
 from caisson.suggest.sizes import LEVELS
 
@@ -49,14 +48,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--error", type=percent, choices=LEVELS, default=5, help=text)
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--check", action="store_true", help="write the scenes, and run nothing")
-    text = "runs at a time, default: the fastest"
-    add("--jobs", type=whole_number, metavar="N", help=text)
-    text = "run only the K-th of N parts, for an array of jobs"
-    add("--part", type=part_of, metavar="K/N", help=text)
-    add("--evaluate", action="store_true", help="write the overview, and run nothing")
-    text = "run on the workers of this scheduler of Dask"
-    add("--dask", metavar="ADDRESS", help=text)
-    add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
+    study_command.add_running_arguments(parser)
+    parser.set_defaults(only="", quick=False, list=False, again=False)
 
 
 def known_in(file: Path) -> dict[str, Any]:
@@ -109,11 +102,5 @@ def main(options: argparse.Namespace) -> int:
     if options.check:
         print(f"park: {short(study)}")
         return 0
-    parser = argparse.ArgumentParser(prog="caisson park")
-    study_command.add_arguments(parser)
-    words = [str(study), "--results", str(folder), "--program", str(options.program)]
-    words += ["--jobs", str(options.jobs)] if options.jobs else []
-    words += ["--part", "{}/{}".format(*options.part)] if options.part else []
-    words += ["--dask", options.dask] if options.dask else []
-    words += ["--evaluate"] if options.evaluate else []
-    return study_command.main(parser.parse_args(words))
+    options.file, options.results = study, folder
+    return study_command.main(options)

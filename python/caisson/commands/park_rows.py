@@ -183,10 +183,10 @@ def suggested(path: Path, position: Position, scene: Path) -> str:
 def write_scenes(path: Path, positions: Sequence[Position], folder: Path) -> None:
     """Write the scenes of positions into a folder, or none of them. Raises InputError
     with a line for each row that is wrong."""
-    wrong, said = wrong_names(path, positions), dict[Path, str]()
+    wrong, said = list[str](), dict[Path, str]()
     folder.mkdir(parents=True, exist_ok=True)
     with disk.all_or_none():
-        for position in positions if not wrong else ():
+        for position in positions:
             scene = folder / f"{file_name(position.name)}.prm"
             try:
                 said[scene] = suggested(path, position, scene)

@@ -16,7 +16,6 @@ from matplotlib.figure import Figure
 
 from caisson import disk, plot, report
 from caisson.band import BEST, ESTIMATES, member_of
-from caisson.parameters.outcome import COMPLETE, status_of
 from caisson.paths import short
 from caisson.ranks import cores
 from caisson.report import verdict
@@ -24,8 +23,8 @@ from caisson.verdict import installation
 from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.runner import Run
-from caisson.study import Options, Study, StudyRun
-from caisson.study_command import query_size
+from caisson.runs import COMPLETE, StudyRun
+from caisson.study import Options, Study
 from caisson.table import digits, write_csv
 from caisson.template import template
 
@@ -35,58 +34,35 @@ RUN_KEYS = {"position", "estimate"}
 HERE = Path(__file__).parent
 PAGE, TABLE, PICTURE = "overview.html", "overview.csv", "overview.png"
 COLORS = ("#2166ac", "#d95f02", "#1b9e77", "#7570b3", "#a6761d", "#e7298a", "#666666")
-HEADS = (
-    "position",
-    "utilization",
-    "governed_by",
-    "feasible_to_m",
-    "planned_m",
-    "self_weight_penetration_m",
-    "largest_suction_kPa",
-    "verdict",
-    "page",
-)
 
 
 class Row(NamedTuple):
-    """A position: what is said of it, numbers that are nan where they are not known,
-    and its page from the folder of the overview, "" for none."""
+    """A position, as overview.csv has it: what is said of it, numbers that are nan
+    where they are not known, and its page from the folder of the overview, "" for
+    none. utilization: the largest share of the allowable suction that is required."""
 
-    name: str
-    verdict: str
-    is_complete: bool
-    share: float = math.nan  # of the allowable suction
-    governing: str = ""
-    feasible: float = math.nan  # m
-    planned: float = math.nan  # m
-    rest: float = math.nan  # m
-    suction: float = math.nan  # kPa
+    position: str
+    utilization: float = math.nan
+    governed_by: str = ""
+    feasible_to_m: float = math.nan
+    planned_m: float = math.nan
+    self_weight_penetration_m: float = math.nan
+    largest_suction_kPa: float = math.nan
+    verdict: str = ""
     page: str = ""
+    is_complete: bool = True
 
     @property
     def reached(self) -> float:
         """The share of the planned way that is feasible; 1 where it is not known."""
-        share = self.feasible / self.planned if self.planned else math.nan
+        share = self.feasible_to_m / self.planned_m if self.planned_m else math.nan
         return min(share, 1.0) if math.isfinite(share) else 1.0
 
     @property
     def rank(self) -> tuple[bool, float, float]:
         """Its place: runs without a result, and then the worst, come first."""
-        share = self.share if math.isfinite(self.share) else -1.0
+        share = self.utilization if math.isfinite(self.utilization) else -1.0
         return self.is_complete, self.reached, -share
-
-
-def check(studies: Sequence[Study], jobs: int) -> None:
-    """Ask for the sizes of the runs that are not complete; those that were begun go on
-    from their checkpoints."""
-    runs = [run for study in studies for run in study.runs]
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        missing = [run for run in runs if run.run.completion_record() is None]
-        list(pool.map(query_size, missing))
-        list(pool.map(lambda run: run.run.resume(), missing))
-    for run in missing:
-        if run.run.restarts:
-            print(f"{run.study} {run.name}: goes on from its checkpoint", flush=True)
 
 
 def page_of(directory: Path) -> str:
@@ -107,14 +83,15 @@ def page_of(directory: Path) -> str:
 
 def row_of(run: StudyRun, folder: Path) -> Row:
     """Return what has become of a position."""
-    status, why = status_of(run)
+    status, why = run.outcome
     page = run.run.directory / report.NAME
     link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
     name = run.settings.get("position", {}).get("name", run.name)
     if status != COMPLETE:
         text = ": ".join(filter(None, (status, disk.one_line(why))))
-        return Row(name, f"No result ({text}).", False, page=link)
-    return with_numbers(Row(name, "", True, page=link), run.results)
+        said = f"No result ({text})."
+        return Row(name, verdict=said, page=link, is_complete=False)
+    return with_numbers(Row(name, page=link), run.results)
 
 
 def with_numbers(row: Row, run: Results) -> Row:
@@ -126,44 +103,46 @@ def with_numbers(row: Row, run: Results) -> Row:
         return row
     part = verdict.feasible_part(run, found, said.end)
     row = row._replace(
-        feasible=said.end or float(found.depth[-1]),
-        planned=end_of(run) or math.nan,
-        rest=math.nan if found.rest is None else found.rest,
+        feasible_to_m=said.end or float(found.depth[-1]),
+        planned_m=end_of(run) or math.nan,
+        self_weight_penetration_m=math.nan if found.rest is None else found.rest,
     )
     if not len(part.required):
         return row
     with np.errstate(invalid="ignore", divide="ignore"):
-        shares = np.nan_to_num(part.utilization)
+        # where nothing is allowed, as where the plug meets the lid, suction ends
+        shares = np.nan_to_num(part.utilization, posinf=1.0)
     i = int(np.argmax(shares))
     share = max(1.0, float(shares[i])) if said.end is not None else float(shares[i])
     name = said.reason or (part.governing(i) if share > 0 else "")
     most = float(part.required.max())
-    return row._replace(share=share, governing=name, suction=most)
+    return row._replace(utilization=share, governed_by=name, largest_suction_kPa=most)
 
 
 def draw(path: Path, rows: Sequence[Row]) -> Path:
     """Draw the utilization of the positions, the worst above; return the path."""
     figure = Figure(figsize=(8, 1.6 + 0.3 * len(rows)))
     axes = figure.subplots()
-    limits = list(dict.fromkeys(row.governing for row in rows if row.governing))
+    limits = list(dict.fromkeys(row.governed_by for row in rows if row.governed_by))
     for i, row in enumerate(rows):
-        if math.isfinite(row.share):
-            number = limits.index(row.governing) if row.governing else -1
-            axes.barh(i, row.share, color=COLORS[number % len(COLORS)])
-        place = row.share if math.isfinite(row.share) else 0.0
+        if math.isfinite(row.utilization):
+            number = limits.index(row.governed_by) if row.governed_by else -1
+            axes.barh(i, row.utilization, color=COLORS[number % len(COLORS)])
+        place = row.utilization if math.isfinite(row.utilization) else 0.0
         text = f"{place:.2f}" if row.is_complete else "no result"
-        if row.is_complete and not math.isfinite(row.share):
+        if row.is_complete and not math.isfinite(row.utilization):
             text = "no suction"
         if row.is_complete and row.reached < 1:
-            text += f", to {row.feasible:.3g} of {row.planned:.3g} m"
+            text += f", to {row.feasible_to_m:.3g} of {row.planned_m:.3g} m"
         axes.text(place, i, f" {text}", va="center", fontsize=8)
     for number, name in enumerate(limits):
         axes.barh(0, 0, color=COLORS[number % len(COLORS)], label=name)
     axes.axvline(1, color="#c0392b", linestyle="--", label="allowable")
-    axes.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=8)
+    axes.set_yticks(range(len(rows)), [row.position for row in rows], fontsize=8)
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_xlim(
-        0, 1.45 * max(1.0, *(row.share for row in rows if row.share > 0), 1.0)
+        0,
+        1.45 * max(1.0, *(row.utilization for row in rows if row.utilization > 0), 1.0),
     )
     axes.set_xlabel("required suction / allowable suction, the largest on the way")
     axes.legend(fontsize=8, loc="lower right")
@@ -173,25 +152,21 @@ def draw(path: Path, rows: Sequence[Row]) -> Path:
 
 def write_table(path: Path, rows: Sequence[Row]) -> Path:
     """Write overview.csv; return its path."""
-    cells = [
-        [
-            row.name,
-            digits(row.share, 3),
-            row.governing,
-            *(digits(x, 4) for x in (row.feasible, row.planned, row.rest, row.suction)),
-            row.verdict,
-            row.page,
-        ]
-        for row in rows
-    ]
-    write_csv(path, HEADS, cells)
-    return path
+
+    def cell(head: str, value: float | str) -> str:
+        if isinstance(value, str):
+            return value
+        return digits(value, 3 if head == "utilization" else 4)
+
+    heads = Row._fields[:-1]
+    cells = [[cell(head, getattr(row, head)) for head in heads] for row in rows]
+    return write_csv(path, heads, cells)
 
 
 def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     """Write pages and overview; return 1 where a position has no result."""
     folder, runs = options.results, [run for study in studies for run in study.runs]
-    done = [run.run.directory for run in runs if status_of(run)[0] == COMPLETE]
+    done = [run.run.directory for run in runs if run.outcome[0] == COMPLETE]
     with concurrent.futures.ProcessPoolExecutor(cores()) as pool:
         for trouble in filter(None, pool.map(page_of, done)):
             print(trouble)
@@ -205,14 +180,14 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
         title=studies[0].title,
         rows=rows,
         complete=len(complete),
-        feasible=sum(not row.share >= 1 for row in complete),
+        feasible=sum(not row.utilization >= 1 for row in complete),
         style=css.read_text(encoding="utf-8"),
         picture=PICTURE,
         table=TABLE,
     )
     disk.write(folder / PAGE, text)
     for row in rows:
-        print(f"{row.name}: {row.verdict}")
+        print(f"{row.position}: {row.verdict}")
     print(f"park: {len(complete)} of {len(rows)} positions in {minutes:.1f} min")
     print(f"next: open {short(folder / PAGE)}")
     return 0 if len(done) == len(runs) else 1

@@ -10,8 +10,8 @@ from pathlib import Path
 from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
 from caisson.progress import span
 from caisson.ranks import cores
-from caisson.runner import Run, RunError, Status, read_parameters
-from caisson.study import StudyRun, execute
+from caisson.runner import Run, RunError, Status
+from caisson.runs import How, StudyRun, make, survey
 
 
 def options_of(words: Sequence[str]) -> argparse.Namespace:
@@ -46,39 +46,43 @@ def scenes_of(best: Path) -> dict[str, Path]:
 
 
 def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
-    """Return the runs of a band by estimate, checked by the program, with how long they
-    take. Their directories are named after that of the best one. Raises RunError."""
-    given = [word for k, v in entries.items() for word in ("--set", f"{k}={v}")]
-    directory = Path(read_parameters([str(best), *given])["Output/Directory"])
+    """Return the runs of a band by estimate. Their directories are named after that of
+    the best one. Raises RunError."""
+    directory = Run(best, entries).directory
     found = {}
     for estimate, scene in scenes_of(best).items():
         place = member_of(directory, estimate).resolve()
         run = Run(scene.resolve(), entries, place)
-        size = run.validate()
-        found[estimate] = StudyRun("run:", scene.stem, "", "", 0, {}, run, size=size)
+        found[estimate] = StudyRun("run:", scene.stem, "", "", 0, {}, run)
     return found
 
 
-def prepare(member: StudyRun, options: argparse.Namespace) -> bool:
-    """Say what is to be done for a run; return whether it is to be computed."""
-    run, name = member.run, f"run: {member.name}"
-    if not options.overwrite and run.is_complete():
+def what_becomes_of(member: StudyRun, is_to_do: bool) -> str:
+    """Return in words whether a run is computed, and from where."""
+    if not is_to_do:
         ended = "complete" if member.status == Status.SUCCESS else "failed before"
-        print(f"{name}: {ended}, and not repeated; --overwrite repeats it")
-        return False
-    run.restarts = options.restart and run.has_checkpoint
-    about = f", {span(member.size.least, member.duration)}" if member.duration else ""
-    how = "from its checkpoint" if run.restarts else "from its start"
-    hint = "; --restart resumes it" if run.has_checkpoint and not run.restarts else ""
-    print(f"{name}: {how}{about}{hint}", flush=True)
-    return True
+        return f"{ended}, and not repeated; --overwrite repeats it"
+    run, size = member.run, member.size
+    about = f", {span(size.least, size.seconds)}" if size.seconds else ""
+    if run.restarts:
+        return f"from its checkpoint{about}"
+    hint = "; --restart resumes it" if run.has_checkpoint else ""
+    return f"from its start{about}{hint}"
 
 
 def compute(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool:
-    """Compute what is missing, one core each; return whether that was stopped."""
-    to_do = [member for member in runs.values() if prepare(member, options)]
+    """Compute what is missing, one core each; return whether that was stopped. Raises
+    RunError where the program refuses a run."""
+    to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
+    for member in to_do:
+        if member.refusal:
+            raise RunError(member.refusal)
+        member.run.restarts = options.restart and member.run.has_checkpoint
+    for member in runs.values():
+        text = what_becomes_of(member, member in to_do)
+        print(f"run: {member.name}: {text}", flush=True)
     try:
-        execute([(to_do, min(3, cores()), 1)], again=True)
+        make(to_do, How(again=True, jobs=min(3, cores())))
     except KeyboardInterrupt:
         print("run: stopped; --restart resumes", file=sys.stderr)
         return True

@@ -14,24 +14,25 @@ import json
 import math
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from caisson import disk, error_bounds
+from caisson import disk, error_bounds, study_command
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
-from caisson.runner import Entries, Run, RunError, read_parameters
-from caisson.study import Options, Study, StudyError, StudyRun, execute
-from caisson.study_command import shares_of, to_do_of
+from caisson.runner import Entries, Run, RunError, Status, read_parameters
+from caisson.runs import How, StudyRun, make, survey
+from caisson.study import Options, Study, StudyError
 from caisson.error import error_bar
-from caisson.error.windows import NUMBERS, Window, WindowedRun, windows_of
+from caisson.error.windows import NUMBERS, Window, windows_of, write_means
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
+DEFAULT = "default"  # the run that has the error bar
 SIZE = "size.json"  # of the scene, beside the runs
 ROUNDED = 1.05  # over the budget: not worth a word
 CELLS = [1, 2, 3, 4, 6, 8, 12, 16, 24]  # across the wall
@@ -78,7 +79,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
     add("--again", action="store_true", help="repeat also runs that are complete")
-    add("--program", type=Path, default=PROGRAM, help="caisson_mpm")
+    study_command.add_machine_arguments(parser)
     text = "directory of the runs, default: results/error_bar/FILE"
     add("--results", type=Path, help=text)
 
@@ -149,24 +150,32 @@ def check_entries(entries: Entries) -> None:
 class Plan:
     """The runs for the error bar of a scene."""
 
-    def __init__(self, arguments: argparse.Namespace) -> None:
-        """Ask the program for the scene. Raises RunError and StudyError."""
-        self.scene: Path = arguments.scene.resolve()
+    def __init__(
+        self,
+        scene: Path,
+        results: Path,
+        output: Path,
+        budget: float | None = None,
+        is_whole: bool = False,
+        program: Path = PROGRAM,
+    ) -> None:
+        """Ask the program for the scene. results: the folder of the runs; output: the
+        file of the bar; budget (s): None for twice the scene; is_whole: without
+        windows. Raises RunError and StudyError."""
+        self.scene, self.program = scene.resolve(), program.resolve()
         if self.scene.suffix == ".toml":
             raise StudyError(
                 f"{self.scene.name} is a study. Give the scene, a .prm file, or call"
                 " caisson study"
             )
-        self.program: Path = arguments.program.resolve()
-        self.results = arguments.results or RESULTS / "error_bar" / self.scene.stem
+        self.results, self.output = results, output
         self.entries = read_parameters([str(self.scene)], self.program)
-        self.output: Path = arguments.output or error_bounds.beside(self.scene)
         check_entries(self.entries)
         self.check_way()
         self.check_output()
         self.size = self.size_of_scene()
-        self.budget = arguments.budget or TIMES_THE_SCENE * self.size.seconds
-        known = self.choose((0,) if arguments.whole else NUMBERS)
+        self.budget = budget or TIMES_THE_SCENE * self.size.seconds
+        known = self.choose((0,) if is_whole else NUMBERS)
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
@@ -243,7 +252,7 @@ class Plan:
         earlier call has found it, so that the same budget allows the same runs, or as
         the program says. It does not where its first steps took no time that it could
         measure."""
-        run = self.run("default", {}).run
+        run = self.run(DEFAULT, {}).run
         try:
             found = json.loads((self.results / SIZE).read_text("utf-8"))
             if found.pop("key") == run.key:
@@ -259,7 +268,7 @@ class Plan:
     def keep_size(self) -> None:
         """Write the size of the scene for later calls."""
         self.results.mkdir(parents=True, exist_ok=True)
-        key = self.run("default", {}).run.key
+        key = self.run(DEFAULT, {}).run.key
         content = {"key": key, **dataclasses.asdict(self.size)}
         disk.write(self.results / SIZE, json.dumps(content))
 
@@ -270,17 +279,33 @@ class Plan:
         return Size(round(self.size.points * r**2), seconds, least)
 
     def run(
-        self, name: str, entries: dict[str, Any], windows: Sequence[Window] = ()
+        self,
+        name: str,
+        entries: dict[str, Any],
+        size: Size = Size(),
+        windows: Sequence[Window] = (),
     ) -> StudyRun:
         """Return a run of the scene, in windows if there are any."""
         directory = (self.results / name.replace(" ", "_")).resolve()
-        changed = {**QUIET, **entries}
-        run = Run(self.scene, changed, directory, program=self.program)
-        if windows:
-            run = WindowedRun(
-                self.scene, changed, directory, windows, self.depths, self.program
+        run = Run(self.scene, {**QUIET, **entries}, directory, program=self.program)
+        known = {"windows": windows}
+        return StudyRun(self.scene.stem, name, "", "", 0, known, run, size=size)
+
+    def parts_of(self, run: StudyRun) -> list[StudyRun]:
+        """Return the runs that are made for a run: of its windows, or itself."""
+        parts, n = [], len(windows := run.settings["windows"])
+        for window in windows:
+            changed = window.entries(self.entries | run.run.entries)
+            part = Run(
+                self.scene,
+                {**run.run.entries, **changed},
+                run.run.directory / window.name,
+                program=self.program,
             )
-        return StudyRun(self.scene.stem, name, "", "", 0, {}, run)
+            size = Size(run.size.points, run.size.seconds / n, run.size.least / n)
+            name = f"{run.name} {window.name}"
+            parts.append(dataclasses.replace(run, name=name, run=part, size=size))
+        return parts or [run]
 
     def meshes(self, least: int) -> list[float]:
         """Return the refinements that fit the body and that the program accepts; see
@@ -326,12 +351,6 @@ class Plan:
                 found[name] = max(0, levels - less)
         return found
 
-    def run_on(self, r: float, name: str) -> StudyRun:
-        """Return the run of a mesh."""
-        run = self.run(name, self.mesh(r), self.windows)
-        run.size = self.sized(r)
-        return run
-
     def changed(self, r: float, of: str) -> tuple[list[StudyRun], list[dict[str, Any]]]:
         """Return the runs with other numerics on a mesh, and their terms of the error
         bar; of: the name of the run of the mesh itself."""
@@ -342,29 +361,49 @@ class Plan:
         # a single window has its means at the ends of the way
         at = {"at": one[0].depth if middle else self.depths[0]} if one else {}
         for name, (entries, factor) in changes_of(self.entries).items():
-            runs.append(self.run(name, {**entries, **self.mesh(r)}, one))
-            runs[-1].size = self.sized(r, COST[name] * share)
+            size = self.sized(r, COST[name] * share)
+            runs.append(self.run(name, {**entries, **self.mesh(r)}, size, one))
             term = {"name": name, "from": of, "to": name, "factor": factor}
             terms.append({**term, **at})
         return runs, terms
 
-    def study(self) -> Study:
-        """Return the runs and the terms of the error bar."""
-        names = {r: f"refinement {r:g}" if r != 1 else "default" for r in self.chosen}
-        runs = [self.run_on(r, name) for r, name in names.items()]
+    def cost_of(self, r: float, is_first: bool) -> float:
+        """Return how long a mesh takes on one core (s), the first one also with other
+        numerics."""
+        more = self.cost_of_changes if is_first else 0.0
+        return self.seconds * r**3 * (1 + more)
+
+    def study(self, names: Mapping[float, str]) -> Study:
+        """Return the runs on meshes, which have names by refinement, and the terms of
+        the error bar."""
+        runs = [
+            self.run(name, self.mesh(r), self.sized(r), self.windows)
+            for r, name in names.items()
+        ]
         coarsest = min(names)
         changed, terms = self.changed(coarsest, names[coarsest])
         errors = [{"name": "mesh", "meshes": list(names.values())}, *terms]
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
 
-    def execute(self, runs: list[StudyRun], again: bool) -> None:
-        """Run what is not complete. Raises StudyError where a run has no result."""
+    def execute(self, runs: list[StudyRun], how: How = How()) -> None:
+        """Run what is not complete. Raises StudyError where a run has no result, or a
+        window does not reach its depth."""
         self.keep_size()
-        execute(shares_of(to_do_of(runs, again), None), again, needs_all=True)
-        if missing := [run for run in runs if not run.run.is_complete()]:
+        parts = {run.name: self.parts_of(run) for run in runs}
+        every = [part for of_run in parts.values() for part in of_run]
+        to_do = survey(every, how.again, resumes=True)
+        make(to_do, dataclasses.replace(how, needs_all=True))
+        if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
             raise StudyError(f"{cause.name}: {cause.trouble}")
+        for run in runs:
+            if windows := run.settings["windows"]:
+                for part in parts[run.name]:
+                    if part.status != Status.SUCCESS:
+                        raise StudyError(f"{part.name} ended early, see {part.log}")
+                found = [part.results for part in parts[run.name]]
+                write_means(run.run, windows, self.depths, found)
 
 
 def set_depths(study: Study, windowed: Sequence[float]) -> None:
@@ -375,7 +414,7 @@ def set_depths(study: Study, windowed: Sequence[float]) -> None:
         first, second, *_, last = *windowed, windowed[-1]
         study.keys["depths"] = [first, last, second - first]
         return
-    depth = study.run("default").results.history["penetration_m"]
+    depth = study.run(DEFAULT).results.history["penetration_m"]
     first, last = depth[0] + 0.3, depth.max() - 0.1
     if last < first:
         raise StudyError(TOO_SHORT)
@@ -385,7 +424,7 @@ def set_depths(study: Study, windowed: Sequence[float]) -> None:
 def advise(plan: Plan, study: Study) -> None:
     """Print how the report finds the bar, what it does not hold, and what the next
     finer mesh would cost."""
-    suction = study.run("default").results.history.get("suction_Pa", np.zeros(1))
+    suction = study.run(DEFAULT).results.history.get("suction_Pa", np.zeros(1))
     if plan.windows and suction.any():
         print(
             "Suction moves soil on the way to a depth, and windows do not see this: the"
@@ -415,8 +454,17 @@ def advise(plan: Plan, study: Study) -> None:
 
 def main(arguments: argparse.Namespace) -> int:
     """Run and write the file."""
-    plan = Plan(arguments)
-    study = plan.study()
+    scene: Path = arguments.scene
+    plan = Plan(
+        scene,
+        arguments.results or RESULTS / "error_bar" / scene.stem,
+        arguments.output or error_bounds.beside(scene.resolve()),
+        arguments.budget,
+        arguments.whole,
+        arguments.program,
+    )
+    names = {r: f"refinement {r:g}" if r != 1 else DEFAULT for r in plan.chosen}
+    study = plan.study(names)
     total = sum(run.duration for run in study.runs)
     for run in study.runs:
         print(f"{run.name}: about {duration(run.duration)}")
@@ -425,12 +473,14 @@ def main(arguments: argparse.Namespace) -> int:
         print(f"This is more than the budget, {duration(plan.budget)}.")
     if arguments.list:
         return 0
-    is_complete = all(run.run.is_complete() for run in study.runs)
-    if not arguments.overwrite and plan.output.exists() and not is_complete:
+    parts = (part for run in study.runs for part in plan.parts_of(run))
+    is_kept = not arguments.overwrite and plan.output.exists()
+    if is_kept and not all(part.run.is_complete() for part in parts):
         raise StudyError(
             f"{plan.output} exists. Choose --output, or replace it by --overwrite"
         )
-    plan.execute(study.runs, arguments.again)
+    how = How(arguments.again, arguments.jobs, arguments.dask)
+    plan.execute(study.runs, how)
     set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
         error_bar.evaluate([study], Options(), 0)

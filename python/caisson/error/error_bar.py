@@ -40,7 +40,8 @@ from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
 from caisson.error_bounds import FORCES, SUCTION, Quantity
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError
 from caisson.error.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"

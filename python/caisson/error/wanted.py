@@ -7,16 +7,15 @@ error bar. The first whose bar of the total force is small enough at nine tenths
 depths is the one that is wanted; the scene then runs on it, with its bar.
 """
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from caisson.paths import PROGRAM
-from caisson.progress import duration
-from caisson.study import Options, Study, StudyError, StudyRun
+from caisson import error_bounds
 from caisson.error import command, error_bar
+from caisson.progress import duration
+from caisson.study import Options, Study, StudyError
 
 BUDGET = 7200.0  # s of all runs on one core, if none is given
 SHARE = 90  # percent of the depths at which the error must be small enough
@@ -40,82 +39,18 @@ def error_of(text: str) -> float:
     return percent / 100
 
 
-class Search:
-    """The meshes of a scene, from the coarsest on."""
-
-    def __init__(self, scene: Path, budget: float, directory: Path) -> None:
-        """Ask the program for the scene. directory: of the runs. Raises RunError,
-        StudyError and OSError."""
-        directory.parent.mkdir(parents=True, exist_ok=True)
-        self.plan = command.Plan(
-            argparse.Namespace(
-                scene=scene,
-                program=PROGRAM,
-                results=directory,
-                output=directory.parent / f"{directory.name}.csv",
-                budget=np.inf,
-                whole=False,
-            )
-        )
-        self.left = budget
-        self.names: dict[float, str] = {}  # of the meshes so far, by refinement
-        self.runs: list[StudyRun] = []
-        self.errors: list[dict[str, Any]] = [{"name": "mesh"}]
-
-    def cost(self, r: float) -> float:
-        """Return how long the next mesh takes on one core (s)."""
-        return (
-            self.plan.seconds
-            * r**3
-            * (1 if self.runs else 1 + self.plan.cost_of_changes)
-        )
-
-    def add_mesh(self, r: float) -> None:
-        """Run a mesh; the first one also with other numerics. Raises StudyError."""
-        self.left -= self.cost(r)
-        self.names[r] = f"refinement {r:g}"
-        runs = [self.plan.run_on(r, self.names[r])]
-        if not self.runs:
-            changed, terms = self.plan.changed(r, self.names[r])
-            runs += changed
-            self.errors += terms
-        self.plan.execute(runs, False)
-        self.runs += runs
-
-    def study(self) -> Study:
-        """Return the study whose default is the finest mesh so far."""
-        plan, finest = self.plan, self.names[max(self.names)]
-        self.errors[0]["meshes"] = [
-            "default" if name == finest else name for name in self.names.values()
-        ]
-        runs = [
-            replace(run, name="default") if run.name == finest else run
-            for run in self.runs
-        ]
-        keys = {"errors": self.errors, "output": str(self.bar_file)}
-        study = Study(plan.scene.stem, plan.scene.stem, plan.scene, runs, keys)
-        command.set_depths(study, plan.depths)
-        return study
-
-    @property
-    def bar_file(self) -> Path:
-        """The error bar of the mesh that is wanted."""
-        return (self.plan.results / "error_bar.csv").resolve()
-
-    def errors_by_term(self) -> dict[str, float]:
-        """Return the errors of the total force on the finest mesh so far that are not
-        exceeded at nine tenths of the depths: by term, of all terms, and of all but the
-        mesh."""
-        study = self.study()
-        depths = error_bar.depths_of(study)
-        terms = [error_bar.term_errors(t, study, depths) for t in self.errors]
-        bars = {term["name"]: bar for term, bar in zip(self.errors, terms)}
-        bars[ALL] = error_bar.combined(terms)
-        bars[NOT_MESH] = error_bar.combined(terms[1:])
-        return {
-            name: float(np.percentile(bar["total"].max(axis=0), SHARE))
-            for name, bar in bars.items()
-        }
+def errors_by_term(study: Study) -> dict[str, float]:
+    """Return the errors of the total force that are not exceeded at nine tenths of the
+    depths: by term, of all terms, and of all but the mesh."""
+    depths, errors = error_bar.depths_of(study), study.keys["errors"]
+    terms = [error_bar.term_errors(term, study, depths) for term in errors]
+    bars = {term["name"]: bar for term, bar in zip(errors, terms)}
+    bars[ALL] = error_bar.combined(terms)
+    bars[NOT_MESH] = error_bar.combined(terms[1:])
+    return {
+        name: float(np.percentile(bar["total"].max(axis=0), SHARE))
+        for name, bar in bars.items()
+    }
 
 
 def in_percent(share: float) -> str:
@@ -142,24 +77,32 @@ def mesh_for(
     that is wanted, and its error bar. Prints the errors of the meshes, whose
     runs go to the directory. Raises RunError and StudyError, also where the budget (s)
     ends before."""
-    search = Search(scene, budget, directory)
-    reached = ""
-    for r in search.plan.chosen:
-        if search.left < (cost := search.cost(r)):
-            more = command.in_units(budget - search.left + cost)
+    directory.mkdir(parents=True, exist_ok=True)
+    bar = (directory / error_bounds.NAME).resolve()
+    plan = command.Plan(scene, directory, bar, np.inf)
+    left, names, reached = budget, dict[float, str](), ""
+    for r in plan.chosen:
+        if left < (cost := plan.cost_of(r, is_first=not names)):
+            more = command.in_units(budget - left + cost)
             raise StudyError(
                 f"the error bar needs {more} on one core; the budget is"
                 f" {duration(budget)}{reached}. Set --budget {more}: runs that are"
                 " complete are not repeated"
             )
-        search.add_mesh(r)
-        if len(search.names) < 2:
+        left -= cost
+        names[r] = f"refinement {r:g}"
+        study = plan.study(names)
+        plan.execute(study.runs)
+        if len(names) < 2:
             continue
-        errors = search.errors_by_term()
+        study.run(names[r]).name = command.DEFAULT  # the finest one
+        study.keys["errors"][0]["meshes"][-1] = command.DEFAULT
+        command.set_depths(study, plan.depths)
+        errors = errors_by_term(study)
         print(f"refinement {r:g}: error of the total force {in_percent(errors[ALL])}")
         if errors[ALL] <= wanted:
-            error_bar.evaluate([search.study()], Options(), 0)
-            return search.plan.mesh(r), search.bar_file
+            error_bar.evaluate([study], Options(), 0)
+            return plan.mesh(r), bar
         check_mesh_matters(errors, wanted)
         reached = f"; {in_percent(errors[ALL])} are reached"
     raise StudyError(f"no finer mesh is known here{reached}")

@@ -10,28 +10,16 @@ A window does not see what the way above it did to the soil, as to the friction 
 walls. So it is for differences between runs, relative to their values. Errors of the
 suction and of what follows from it are absolute, so windows give none.
 """
-import functools
-import hashlib
 import json
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from caisson import curves, disk, table
 from caisson.results import Results, Table
-from caisson.runner import (
-    Entries,
-    Run,
-    RunError,
-    Status,
-    query,
-    read_parameters,
-    set_options,
-)
+from caisson.runner import Entries, Run, query, set_options
 from caisson.error_bounds import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 10.0, 1 / 3
@@ -115,105 +103,41 @@ def windows_of(scene: Entries, number: int) -> list[Window]:
     return [Window(float(depth) - length, float(depth)) for depth in depths]
 
 
-class WindowedRun(Run):
-    """The runs of a scene in its windows, and one history of their means."""
-
-    def __init__(
-        self,
-        scene: Path,
-        entries: Entries,
-        directory: Path,
-        windows: Sequence[Window],
-        depths: Sequence[float],
-        program: Path,
-    ) -> None:
-        """depths: of the history (m); each has the means of the nearest window."""
-        super().__init__(scene, entries, directory, program=program)
-        self.windows, self.depths = list(windows), list(depths)
-        self.began = time.monotonic()  # the window that is running
-        in_effect = read_parameters([str(scene), *set_options(entries)], program)
-        self.parts = [
-            Run(
-                scene,
-                {**entries, **window.entries(in_effect)},
-                directory / window.name,
-                program=program,
-            )
-            for window in windows
-        ]
-
-    @functools.cached_property
-    def key(self) -> str:
-        """A hash of what the results depend on."""
-        text = json.dumps([self.depths, *(part.key for part in self.parts)])
-        return hashlib.sha256(text.encode()).hexdigest()
-
-    def share_done(self, _: float) -> float:
-        """Return what part is over, with that of the window that is running."""
-        shares = [float(part.is_complete()) for part in self.parts]
-        if 0.0 in shares:
-            i = shares.index(0.0)
-            shares[i] = self.parts[i].share_done(time.monotonic() - self.began)
-        return sum(shares) / len(shares)
-
-    def execute(
-        self, time_limit: float | None = None, ranks: int | None = None
-    ) -> Status | None:
-        """Run the windows that have no result, or all of them again where none is
-        missing, and write the history of the means; see Run. Raises RunError also where
-        a window does not reach its depth."""
-        again = self.is_complete()
-        (self.directory / self.RECORD).unlink(missing_ok=True)
-        records = []
-        for part in self.parts:
-            if again or not part.is_complete():
-                self.began = time.monotonic()
-                part.execute(time_limit, ranks)
-            record = part.completion_record()
-            if record is None or record["status"] != Status.SUCCESS:
-                raise RunError(f"a window ended early, see {part.directory / 'log'}")
-            records.append(record)
-        results = [Results(part.directory) for part in self.parts]
-        self.write(results, fingerprint(self.scene, self.entries, self.program))
-        record = {
-            "key": self.key,
-            "entries": self.entry_texts(),
-            "status": Status.SUCCESS,
-            "wall_s": sum(record["wall_s"] for record in records),
-            "cpu_s": sum(record["cpu_s"] for record in records),
-        }
-        disk.write(self.directory / self.RECORD, json.dumps(record))
-        return Status.SUCCESS
-
-    def write(self, results: Sequence[Results], of_scene: str) -> None:
-        """Write history.csv without the suction, in which each mean is constant about
-        its depth, and run.json with the fingerprint of the scene."""
-        absolute = {quantity.column() for quantity in SUCTION}
-        columns = [name for name in results[0].history if name not in absolute]
-        means = [means_of(r.history, w.averaged) for r, w in zip(results, self.windows)]
-        centers = np.array([window.depth for window in self.windows])
-        half = curves.FORCE_WINDOW / 2
-        # the first row of a history is no mean
-        places = [self.depths[0] - 2 * half]
-        places += [depth + side for depth in self.depths for side in (-half, half)]
-        rows = []
-        for place in places:
-            mean = means[int(np.argmin(abs(centers - place)))]
-            rows.append([{**mean, "penetration_m": place}[c] for c in columns])
-        table.write_csv(self.directory / "history.csv", columns, rows)
-        found = {
-            "entries": {**results[0].summary["entries"], **self.entry_texts()},
-            "fingerprint": of_scene,
-            "wall_time_s": sum(r.summary["wall_time_s"] for r in results),
-        }
-        disk.write(self.directory / "run.json", json.dumps(found))
+def write_means(
+    run: Run,
+    windows: Sequence[Window],
+    depths: Sequence[float],
+    results: Sequence[Results],
+) -> None:
+    """Write the means of a scene in its windows as the results of a run: history.csv
+    without the suction, in which each depth (m) has the means of the nearest window,
+    constant about it, and run.json with the fingerprint of the scene."""
+    absolute = {quantity.column() for quantity in SUCTION}
+    columns = [name for name in results[0].history if name not in absolute]
+    means = [means_of(r.history, w.averaged) for r, w in zip(results, windows)]
+    centers = np.array([window.depth for window in windows])
+    half = curves.FORCE_WINDOW / 2
+    # the first row of a history is no mean
+    places = [depths[0] - 2 * half]
+    places += [depth + side for depth in depths for side in (-half, half)]
+    rows = []
+    for place in places:
+        mean = means[int(np.argmin(abs(centers - place)))]
+        rows.append([{**mean, "penetration_m": place}[c] for c in columns])
+    table.write_csv(run.directory / "history.csv", columns, rows)
+    found = {
+        "entries": {**results[0].summary["entries"], **run.entry_texts()},
+        "fingerprint": fingerprint(run),
+        "wall_time_s": sum(r.summary["wall_time_s"] for r in results),
+    }
+    disk.write(run.directory / "run.json", json.dumps(found))
 
 
-def fingerprint(scene: Path, entries: Entries, program: Path) -> str:
-    """Return the fingerprint of a scene, by which it knows its error bar. Raises
-    RunError."""
-    arguments = [str(scene), *set_options(entries), "--print-parameters"]
-    return query(arguments, program).rpartition("# fingerprint: ")[2]
+def fingerprint(run: Run) -> str:
+    """Return the fingerprint of the scene of a run, by which it knows its error bar.
+    Raises RunError."""
+    words = [str(run.scene), *set_options(run.entries), "--print-parameters"]
+    return query(words, run.program).rpartition("# fingerprint: ")[2]
 
 
 def means_of(history: Table, length: float) -> dict[str, float]:

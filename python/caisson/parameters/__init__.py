@@ -30,7 +30,6 @@ is observed at the quarters of the planned penetration, and the probability of r
 by a response surface (caisson.parameters.surface).
 A cone test is read before the first run, and kept with each of them.
 """
-import concurrent.futures
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -38,8 +37,8 @@ from caisson.parameters import methods, pictures, surface, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import LATIN, runs_of
 from caisson.paths import short
-from caisson.runner import RunError
-from caisson.study import Options, Study, StudyError, StudyRun, check_is_own, file_name
+from caisson.runs import StudyRun
+from caisson.study import Options, Study, StudyError, file_name
 from caisson.design import cone
 from caisson.disk import InputError
 
@@ -49,41 +48,29 @@ STUDY_KEYS = set(
     " cone".split()
 )
 RUN_KEYS = {"sample"}
-FILES = (
-    *("table.csv", "fan.csv", "fan.png", "tornado.png", "surface.csv"),
-    *("methods.csv", "methods.png"),
-)
 make_runs = runs_of
 
 
-def check(studies: Sequence[Study], jobs: int) -> None:
-    """Let the program check all runs that are not complete, without computing them, and
-    keep their sizes. Raises StudyError with what it says of the first run that it
-    refuses."""
-
-    def refusal_of(run: StudyRun) -> str:
-        try:
-            if not run.run.is_complete():
-                run.size = run.run.validate()
-            return ""
-        except (RunError, OSError) as error:
-            return f"{run.study}: the run {run.name!r} is refused: {error}"
-
+def check(studies: Sequence[Study]) -> None:
+    """Read what is beside the runs. Raises StudyError."""
     for study in studies:
         cone_of(study)
-        check_is_own(study.runs[0].run.directory.parent, study, FILES)
-    runs = [run for study in studies for run in study.runs]
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        refused = [text for text in pool.map(refusal_of, runs) if text]
-    if refused:
-        others = len(refused) - 1
-        more = f"\n(so {'is' if others == 1 else 'are'} {others} of the other runs)"
-        hint = "\ncut off a distribution that leaves what is allowed, by min and max"
-        some_are_valid = any("samples" in s.keys for s in studies) and len(
-            refused
-        ) < len(runs)
-        text = refused[0] + (more if others else "") + (hint if some_are_valid else "")
-        raise StudyError(text)
+
+
+def refuse(studies: Sequence[Study], runs: Sequence[StudyRun]) -> None:
+    """Raise StudyError with what the program says of the first of the runs that it
+    refuses, before any of them begins."""
+    refused = [run for run in runs if run.refusal]
+    if not refused:
+        return
+    first, others = refused[0], len(refused) - 1
+    text = f"{first.study}: the run {first.name!r} is refused: {first.refusal}"
+    if others:
+        text += f"\n(so {'is' if others == 1 else 'are'} {others} of the other runs)"
+    n = sum(len(study.runs) for study in studies)
+    if any("samples" in study.keys for study in studies) and len(refused) < n:
+        text += "\ncut off a distribution that leaves what is allowed, by min and max"
+    raise StudyError(text)
 
 
 def cone_of(study: Study) -> Path | None:
@@ -122,7 +109,6 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     status = 0
     for study in studies:
         directory = options.results / file_name(study.id)
-        check_is_own(directory, study, FILES)
         outcomes = Outcomes(study)
         files: list[Path | None] = [
             tables.write_runs(directory / "table.csv", outcomes)

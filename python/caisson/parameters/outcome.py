@@ -12,8 +12,8 @@ from caisson.evaluation import rest_of_run
 from caisson.parameters.entry import Parameter, Sample, read_all
 from caisson.parameters.sampling import numbers_of, sampling_of
 from caisson.results import ResultsError, Table, read_table
-from caisson.runner import Status
-from caisson.study import Study, StudyError, StudyRun
+from caisson.runs import COMPLETE, FAILED, StudyRun
+from caisson.study import Study, StudyError
 from caisson.verdict import run_review
 
 DEPTH, REQUIRED = "penetration_m", "required_suction_Pa"
@@ -25,7 +25,6 @@ OBSERVED = (
     "cavity_pressure_Pa",
 )
 SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
-COMPLETE, FAILED = "complete", "failed"
 
 
 @dataclass
@@ -48,6 +47,11 @@ class Outcome:
         return self.status == COMPLETE
 
     @property
+    def trouble(self) -> str:
+        """Its name, how it ended, and why."""
+        return f"{self.name}: {self.status}, {self.why}".rstrip(", ")
+
+    @property
     def rest(self) -> float | None:
         """The penetration by weight alone (m), where suction follows it: where the mean
         of the required suction passes 0, as single rows pass it again and again."""
@@ -66,34 +70,6 @@ class Outcome:
         return float(passes[np.argmin(np.abs(passes - rest))])
 
 
-def why_failed(run: StudyRun) -> str:
-    """Return what the program has said at its end."""
-    path = run.run.directory / "log"
-    try:
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return ""
-    for line in reversed(lines):
-        if line.startswith(("failure: ", "bad input: ")):
-            return line.split(": ", 1)[1]
-    return lines[-1] if lines else ""
-
-
-def status_of(run: StudyRun) -> tuple[str, str]:
-    """Return how a run ended, and why if it failed. A result of other entries, as of
-    the study before a change, does not count."""
-    record = run.run.completion_record()
-    if record is None:
-        if run.trouble is None and not (run.run.directory / "log").is_file():
-            return "not run", ""
-        return "no result", why_failed(run) or (run.trouble or "")
-    if record.get("entries") != run.run.entry_texts():
-        return "out of date", "the entries of the study have changed since"
-    if record["status"] != Status.SUCCESS:
-        return FAILED, why_failed(run)
-    return COMPLETE, ""
-
-
 def warnings_of(run: StudyRun) -> tuple[str, ...]:
     """Return what speaks against the results of a run."""
     try:
@@ -104,7 +80,7 @@ def warnings_of(run: StudyRun) -> tuple[str, ...]:
 
 def outcome_of(run: StudyRun) -> Outcome:
     """Return what a run has left."""
-    status, why = status_of(run)
+    status, why = run.outcome
     history = None
     if status in (COMPLETE, FAILED):
         try:

@@ -6,7 +6,6 @@ distribution (McKay, Beckman & Conover 1979, doi:10.2307/1268522), by scipy.stat
 Its values are then paired so that their rank correlations are those of the study, or
 nearly none, by the method of Iman & Conover (1982, doi:10.1080/03610918208812265).
 """
-import functools
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -19,7 +18,7 @@ from scipy.stats import qmc
 from caisson.parameters.distributions import is_number
 from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
 from caisson.parameters.formula import FormulaError
-from caisson.runner import Run, RunError, read_parameters, set_options
+from caisson.runner import Run, RunError
 from caisson.study import StudyError, file_name
 
 GRID, ONE, LATIN = "grid", "one at a time", "Latin hypercube"
@@ -221,20 +220,15 @@ def scene_reader(scene: Run) -> SceneValue:
     """Return what reads the value of an entry of the scene, with the program when it
     is first asked for."""
 
-    @functools.cache
-    def entries() -> dict[str, str]:
-        words = [str(scene.scene), *set_options(scene.entries)]
+    def value(entry: str) -> Value:
         try:
-            return read_parameters(words, scene.program)
+            text = scene.in_effect.get(entry)
         except RunError as error:
             raise StudyError(f"the scene is refused: {error}") from error
         except OSError as error:
             raise StudyError(f"{scene.program} cannot be run: {error}") from error
-
-    def value(entry: str) -> Value:
-        if entry not in entries():
+        if text is None:
             raise StudyError(f"the program has no entry {entry}")
-        text = entries()[entry]
         try:
             return float(text)
         except ValueError:

@@ -149,9 +149,7 @@ def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:
         of = "the base" if outcomes.sampling == ONE else "the mean of all runs"
         yield f"effects at {depth:g} m, beside {of}:"
         yield table.markdown(["parameter", "smallest", "largest"], rows)
-    for outcome in outcomes.all:
-        if not outcome.is_complete:
-            yield f"{outcome.name}: {outcome.status}, {outcome.why}".rstrip(", ")
+    yield from (o.trouble for o in outcomes.all if not o.is_complete)
     warnings = [f"{o.name}: warning: {w}" for o in outcomes.all for w in o.warnings]
     yield from warnings[:MOST_WARNINGS]
     if len(warnings) > MOST_WARNINGS:
