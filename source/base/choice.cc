@@ -2,9 +2,13 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/text.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <cstdlib>
-#include <map>
-#include <regex>
+#include <limits>
 
 namespace CaissonMPM
 {
@@ -23,37 +27,54 @@ namespace CaissonMPM
       return value;
     }
 
-    /** By the path of the entry. */
-    std::map<std::string, EntryRecord> &
-    all_records()
+    /** "0" and "90" of "[Double 0...90 (inclusive)]": deal.II tells no bounds
+     * in another way. Those of a list are the last ones. */
+    std::pair<std::string, std::string>
+    bounds_in(const std::string &description)
     {
-      static std::map<std::string, EntryRecord> records;
-      return records;
+      const std::size_t dots  = description.rfind("..."),
+                        begin = description.rfind(' ', dots) + 1,
+                        end   = description.find(' ', dots);
+      return {description.substr(begin, dots - begin),
+              description.substr(dots + 3, end - dots - 3)};
+    }
+
+    /** " from 0 to 90"; a bound that is none is left out. */
+    std::string
+    range_in_words(const std::string &description)
+    {
+      const auto [lower, upper] = bounds_in(description);
+      const bool from_below = lower == "-MAX_DOUBLE" || lower == "-2147483648",
+                 up_to_any  = upper == "MAX_DOUBLE" || upper == "2147483647";
+      if (from_below)
+        return up_to_any ? "" : ", at most " + upper;
+      return up_to_any ? ", at least " + lower :
+                         " from " + lower + " to " + upper;
+    }
+
+    std::string
+    number_of_items(const std::string &least, const std::string &most)
+    {
+      if (least == most)
+        return least + " items";
+      if (most == to_text(std::numeric_limits<unsigned int>::max()))
+        return "a list of " + (least == "0" ? "" : "at least " + least + " ") +
+               "items";
+      return least + " to " + most + " items";
+    }
+
+    std::string
+    list_in_words(const dealii::Patterns::List &list)
+    {
+      const auto [least, most] = bounds_in(list.description());
+      const std::string each   = allowed_values(list.get_base_pattern()),
+                        mark   = list.get_separator();
+      if (least == "1" && most == "1")
+        return each;
+      return number_of_items(least, most) + " separated by " +
+             (mark == "," ? "commas" : "\"" + mark + "\"") + ", each " + each;
     }
   } // namespace
-
-  EntryRecord &
-  Section::record(const std::string &entry, const std::string &unit)
-  {
-    entries_.push_back(path_of(entry));
-    return all_records()[entries_.back()] = {unit, influence};
-  }
-
-  const EntryRecord *
-  Section::record_of(const std::string &path)
-  {
-    const auto found = all_records().find(path);
-    return found == all_records().end() ? nullptr : &found->second;
-  }
-
-  std::string
-  Section::path_of(const std::string &entry) const
-  {
-    std::string path;
-    for (const std::string &section : get_section_path())
-      path += section + "/";
-    return path + entry;
-  }
 
   EntryRecord &
   add_entry(Section                                        &owner,
@@ -66,10 +87,10 @@ namespace CaissonMPM
   {
     auto &prm = Section::prm;
     owner.enter_my_subsection(prm);
-    prm.declare_entry(entry, default_value, pattern, text);
+    prm.declare_entry(entry, default_value, pattern);
     prm.add_action(entry, set);
     owner.leave_my_subsection(prm);
-    return owner.record(entry, unit);
+    return owner.record(entry, unit, text, pattern);
   }
 
   WordOrNumber::WordOrNumber(const std::string          &word,
@@ -80,26 +101,16 @@ namespace CaissonMPM
     , number(number.clone())
   {}
 
-  WordOrNumber::WordOrNumber(const WordOrNumber &other)
-    : PatternBase(other)
-    , word(other.word)
-    , old_value(other.old_value)
-    , number(other.number->clone())
-  {}
-
   bool
   WordOrNumber::match(const std::string &text) const
   {
-    return text == word || number->match(text) ||
-           (old_value && number_in(text) == old_value);
+    return text == word || number->match(text) || is_old_value(text);
   }
 
   std::string
-  WordOrNumber::description(const OutputStyle style) const
+  WordOrNumber::description(const OutputStyle) const
   {
-    return "[Word " + word +
-           (old_value ? ", formerly " + to_text(*old_value) : "") + ", or " +
-           number->description(style) + "]";
+    return word + ", or " + allowed_values(*number);
   }
 
   std::unique_ptr<PatternBase>
@@ -108,11 +119,16 @@ namespace CaissonMPM
     return std::make_unique<WordOrNumber>(*this);
   }
 
+  bool
+  WordOrNumber::is_old_value(const std::string &text) const
+  {
+    return old_value && number_in(text) == old_value;
+  }
+
   std::optional<double>
   WordOrNumber::value_of(const std::string &text) const
   {
-    const std::optional<double> value = number_in(text);
-    return value == old_value ? std::nullopt : value;
+    return is_old_value(text) ? std::nullopt : number_in(text);
   }
 
   EntryRecord &
@@ -137,14 +153,39 @@ namespace CaissonMPM
                      });
   }
 
-  std::optional<WordDescription>
-  read_word_description(const std::string &pattern)
+  std::vector<std::string>
+  choices_of(const PatternBase &pattern)
   {
-    static const std::regex description(
-      R"(\[Word (.*?)(?:, formerly (.*?))?, or (.*)\])");
-    std::smatch part;
-    if (!std::regex_match(pattern, part, description))
+    const std::string description = pattern.description(),
+                      begin       = "[Selection ";
+    if (!boost::starts_with(description, begin))
       return {};
-    return WordDescription{part[1], part[2], part[3]};
+    return dealii::Utilities::split_string_list(
+      description.substr(begin.size(), description.size() - begin.size() - 1),
+      '|');
+  }
+
+  // deal.II has words of its own, but writes the bounds of unbounded numbers:
+  // "-MAX_DOUBLE <= v"
+  std::string
+  allowed_values(const PatternBase &pattern)
+  {
+    if (const auto *list =
+          dynamic_cast<const dealii::Patterns::List *>(&pattern))
+      return list_in_words(*list);
+    const std::string description = pattern.description();
+    if (boost::starts_with(description, "[Double "))
+      return "a number" + range_in_words(description);
+    if (boost::starts_with(description, "[Integer range "))
+      return "a whole number" + range_in_words(description);
+    if (description == "[Integer]") // deal.II's name of an unsigned integer
+      return "a whole number, at least 0";
+    if (description == "[Bool]")
+      return "true or false";
+    if (description == "[Anything]")
+      return "any text";
+    const auto choices = choices_of(pattern);
+    return choices.empty() ? description :
+                             "one of: " + boost::join(choices, ", ");
   }
 } // namespace CaissonMPM

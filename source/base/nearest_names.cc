@@ -2,23 +2,17 @@
 
 #include <caisson_mpm/base/nearest_names.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
-#include <cctype>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace CaissonMPM
 {
   namespace
   {
-    std::string
-    lower_case(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
-    }
-
     /** Split a path into its subsection ("" at top level) and last part. */
     std::pair<std::string, std::string>
     split_path(const std::string &path)
@@ -41,25 +35,15 @@ namespace CaissonMPM
       return is_word ? std::min(distance, 1u) : distance;
     }
 
-    struct Candidate
-    {
-      unsigned int distance;
-      bool         other_subsection;
-      std::string  name;
-
-      bool
-      operator<(const Candidate &other) const
-      {
-        return std::tie(distance, other_subsection, name) <
-               std::tie(other.distance, other.other_subsection, other.name);
-      }
-    };
+    /** The distance, whether the subsection is another one, and the name. */
+    using Candidate = std::tuple<unsigned int, bool, std::string>;
 
     Candidate
     compare(const std::string &typed, const std::string &known)
     {
-      const auto [subsection, last]             = split_path(lower_case(typed));
-      const auto [known_subsection, known_last] = split_path(lower_case(known));
+      const auto [subsection, last] = split_path(boost::to_lower_copy(typed));
+      const auto [known_subsection, known_last] =
+        split_path(boost::to_lower_copy(known));
       const unsigned int distance = distance_of_last_parts(last, known_last);
       if (subsection == known_subsection)
         return {distance, false, known};
@@ -70,29 +54,28 @@ namespace CaissonMPM
   unsigned int
   edit_distance(const std::string &first, const std::string &second)
   {
-    const std::string a = lower_case(first), b = lower_case(second);
+    const std::string a = boost::to_lower_copy(first),
+                      b = boost::to_lower_copy(second);
 
-    // Row i holds the distances of the first i characters of a to the first j
-    // of b; three rows are enough to see swapped neighbors.
-    std::vector<unsigned int> before(b.size() + 1), last(b.size() + 1),
-      row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-      row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i)
-      {
-        before.swap(last);
-        last.swap(row);
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j)
-          {
-            const bool equal = a[i - 1] == b[j - 1];
-            row[j]           = std::min(
-              {last[j] + 1, row[j - 1] + 1, last[j - 1] + (equal ? 0 : 1)});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-              row[j] = std::min(row[j], before[j - 2] + 1);
-          }
-      }
-    return row[b.size()];
+    // that of the first i characters of a and the first j of b
+    std::vector<std::vector<unsigned int>> distance(
+      a.size() + 1, std::vector<unsigned int>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+      for (std::size_t j = 0; j <= b.size(); ++j)
+        {
+          unsigned int &least = distance[i][j];
+          if (i == 0 || j == 0)
+            {
+              least = i + j;
+              continue;
+            }
+          least = std::min({distance[i - 1][j] + 1,
+                            distance[i][j - 1] + 1,
+                            distance[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+          if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+            least = std::min(least, distance[i - 2][j - 2] + 1);
+        }
+    return distance[a.size()][b.size()];
   }
 
   std::vector<std::string>
@@ -102,17 +85,16 @@ namespace CaissonMPM
     const std::size_t  length       = split_path(name).second.size();
     const unsigned int max_distance = 2 + length / 4;
 
-    std::vector<Candidate> candidates;
+    std::set<Candidate> candidates;
     for (const std::string &known : known_names)
-      candidates.push_back(compare(name, known));
-    std::sort(candidates.begin(), candidates.end());
+      candidates.insert(compare(name, known));
 
     // Beside a near name, far ones would only distract.
     std::vector<std::string> result;
-    for (const Candidate &candidate : candidates)
-      if (result.size() < 3 && candidate.distance <= max_distance &&
-          candidate.distance <= candidates.front().distance + 1)
-        result.push_back(candidate.name);
+    for (const auto &[distance, is_elsewhere, known] : candidates)
+      if (result.size() < 3 && distance <= max_distance &&
+          distance <= std::get<0>(*candidates.begin()) + 1)
+        result.push_back(known);
     return result;
   }
 
@@ -149,8 +131,9 @@ namespace CaissonMPM
       {"tension", "Suction control"},
       {"unit weight", "Solid density"},
       {"wall friction", "Friction angle of the outer wall"}};
-    const auto [subsection, symbol] = split_path(lower_case(path));
-    const auto whole = names.find(lower_case(path)); // may have a slash
+    const auto [subsection, symbol] = split_path(boost::to_lower_copy(path));
+    const auto whole =
+      names.find(boost::to_lower_copy(path)); // may have a slash
     const auto meant = whole != names.end() ? whole : names.find(symbol);
     std::vector<std::string> result;
     for (const std::string &known : known_names)
@@ -158,7 +141,7 @@ namespace CaissonMPM
         const auto [of_known, last] = split_path(known);
         if (meant == names.end() || last != meant->second)
           continue;
-        if (lower_case(of_known) == subsection)
+        if (boost::to_lower_copy(of_known) == subsection)
           return {known};
         if (result.empty())
           result = {known};

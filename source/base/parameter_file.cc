@@ -8,8 +8,14 @@
 #include <caisson_mpm/base/parameter_text.h>
 #include <caisson_mpm/base/text.h>
 
-#include <cstdlib>
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <boost/algorithm/string/trim.hpp>
+
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <stdexcept>
 
 namespace CaissonMPM
 {
@@ -53,6 +59,45 @@ namespace CaissonMPM
              next->first.compare(0, path.size() + 1, path + "/") == 0;
     }
 
+    /** Set an entry. Throws BadInput where the value is not allowed. */
+    void
+    set_value(const EntryRecord &entry,
+              const std::string &value,
+              const std::string &place)
+    {
+      auto       &prm = dealii::ParameterAcceptor::prm;
+      std::string reason;
+      for (const std::string &subsection : entry.subsections)
+        prm.enter_subsection(subsection);
+      try
+        {
+          // deal.II's pattern for an unsigned integer lets -1 through and makes
+          // 4294967295 of it
+          if (entry.pattern->description() == "[Integer]" && value[0] == '-')
+            throw std::out_of_range(value);
+          prm.set(entry.name, value);
+        }
+      catch (const BadInput &error) // of an expression
+        {
+          reason = error.what();
+        }
+      catch (const std::exception &)
+        {
+          reason =
+            quote(entry.path) + " cannot be " +
+            (value.empty() ? "empty" : quote(value)) + "." +
+            did_you_mean(nearest_names(value, choices_of(*entry.pattern)));
+        }
+      for (std::size_t i = 0; i < entry.subsections.size(); ++i)
+        prm.leave_subsection();
+      if (!reason.empty())
+        throw BadInput(place + ": " + reason +
+                       "\n  Allowed: " + allowed_values(*entry.pattern) + "." +
+                       (entry.documentation.empty() ?
+                          "" :
+                          "\n  Meaning: " + entry.documentation));
+    }
+
     /** The path without links; as it is where it has none, as that of a pipe.
      */
     std::filesystem::path
@@ -70,11 +115,8 @@ namespace CaissonMPM
     class Reader
     {
     public:
-      Reader(dealii::ParameterHandler &prm, const DeclareSubsection &declare)
-        : prm(prm)
-        , declare(declare)
-        , entries(prm)
-        , origins(entries.entry_paths())
+      explicit Reader(const DeclareSubsection &declare)
+        : declare(declare)
       {}
 
       /** @p place is the line that includes the file, empty if none. */
@@ -128,14 +170,9 @@ namespace CaissonMPM
 
       /** The value, or the word where an old special number stands for it. */
       std::string
-      present_value(const DeclaredEntry &entry,
-                    const std::string   &value,
-                    const std::string   &place);
-
-      void
-      set_value(const DeclaredEntry &entry,
-                const std::string   &value,
-                const std::string   &place);
+      present_value(const EntryRecord &entry,
+                    const std::string &value,
+                    const std::string &place);
 
       /** What to say where there is no such entry. */
       std::string
@@ -172,9 +209,7 @@ namespace CaissonMPM
       bool
       has_subsection(const std::string &path);
 
-      dealii::ParameterHandler          &prm;
       const DeclareSubsection           &declare;
-      DeclaredEntries                    entries;
       ParameterOrigins                   origins;
       std::vector<OpenFile>              files;
       std::string                        scene; // the file that includes others
@@ -260,11 +295,10 @@ namespace CaissonMPM
     {
       if (line.text.empty())
         return;
-      std::size_t length = 0;
-      while (length < line.text.size() && !is_space(line.text[length]))
-        ++length;
+      const std::size_t length =
+        std::min(line.text.find_first_of(" \t\v\f"), line.text.size());
       const std::string word = line.text.substr(0, length);
-      const std::string rest = trim(line.text.substr(length));
+      const std::string rest = boost::trim_copy(line.text.substr(length));
 
       if (word == "include" || word == "INCLUDE")
         return include(rest, line.number);
@@ -291,8 +325,8 @@ namespace CaissonMPM
       if (equal_sign == std::string::npos || name.empty())
         throw BadInput(at(line) + ": " + quote("set " + assignment) +
                        " cannot be read.\n  Write \"set Name = value\".");
-      const std::string          path  = full_path(name);
-      const DeclaredEntry *const entry = entries.find(path);
+      const std::string        path  = full_path(name);
+      const EntryRecord *const entry = find_entry(path);
       if (entry == nullptr)
         throw BadInput(unknown_entry(path, at(line)) + missing_end_hint(name) +
                        list_hint);
@@ -303,7 +337,7 @@ namespace CaissonMPM
                        quote("subsection " + name.substr(0, name.find('/'))) +
                        " and \"end\".");
       set(path,
-          trim(assignment.substr(equal_sign + 1)),
+          boost::trim_copy(assignment.substr(equal_sign + 1)),
           at(line),
           at_line.comment.find("ASSUMED") != std::string::npos);
     }
@@ -319,23 +353,18 @@ namespace CaissonMPM
                        " is a path.\n  Open one subsection per line.");
       const std::string path = full_path(name);
       if (!has_subsection(path))
-        throw BadInput(
-          at(line) + ": there is no subsection " + quote(path) + "." +
-          did_you_mean(nearest_names(path, entries.subsection_paths())) +
-          missing_end_hint(name) + list_hint);
+        throw BadInput(at(line) + ": there is no subsection " + quote(path) +
+                       "." +
+                       did_you_mean(nearest_names(path, section_paths())) +
+                       missing_end_hint(name) + list_hint);
       open().push_back({path, line});
     }
 
     bool
     Reader::has_subsection(const std::string &path)
     {
-      if (entries.has_subsection(path) || is_removed_section(path))
-        return true;
-      if (!declare || !declare(path))
-        return false;
-      entries = DeclaredEntries(prm);
-      origins.set_paths(entries.entry_paths());
-      return true;
+      return has_section(path) || is_removed_section(path) ||
+             (declare && declare(path));
     }
 
     void
@@ -356,16 +385,15 @@ namespace CaissonMPM
     Reader::unknown_entry(const std::string &path,
                           const std::string &place) const
     {
-      if (entries.has_subsection(path))
+      if (has_section(path))
         return place + ": " + quote(path) + " is a subsection, not an entry.";
       if (const auto old = removed_entries.find(path);
           old != removed_entries.end())
         return place + ": there is no entry " + quote(path) + " any more.\n  " +
                old->second;
-      std::vector<std::string> names =
-        names_of_symbol(path, entries.entry_paths());
+      std::vector<std::string> names = names_of_symbol(path, entry_paths());
       if (names.empty())
-        names = nearest_names(path, entries.entry_paths());
+        names = nearest_names(path, entry_paths());
       return place + ": there is no entry " + quote(path) + "." +
              did_you_mean(names);
     }
@@ -377,8 +405,7 @@ namespace CaissonMPM
         {
           const std::string outside =
             n_open > 1 ? open()[n_open - 2].path + "/" + name : name;
-          if (entries.find(outside) != nullptr ||
-              entries.has_subsection(outside))
+          if (find_entry(outside) != nullptr || has_section(outside))
             return "\n  Or is an \"end\" missing? Subsection " +
                    quote(open()[n_open - 1].path) + " is open since line " +
                    to_text(open()[n_open - 1].line) + ".";
@@ -404,9 +431,9 @@ namespace CaissonMPM
                            "\"Section/Entry=value\" (mind the quotes).");
           const std::string path = normalize_path(text.substr(0, equal_sign));
           has_subsection(path.substr(0, path.rfind('/')));
-          if (entries.find(path) == nullptr)
+          if (find_entry(path) == nullptr)
             throw BadInput(unknown_entry(path, place) + list_hint);
-          set(path, trim(text.substr(equal_sign + 1)), place);
+          set(path, boost::trim_copy(text.substr(equal_sign + 1)), place);
         }
       files.pop_back();
     }
@@ -417,7 +444,7 @@ namespace CaissonMPM
                 const std::string &place,
                 const bool         is_assumed)
     {
-      const DeclaredEntry &entry = *entries.find(path);
+      const EntryRecord &entry = *find_entry(path);
       const auto [earlier, is_new] =
         files.back().place_of_entry.insert({entry.path, place});
       if (!is_new)
@@ -437,74 +464,27 @@ namespace CaissonMPM
     }
 
     std::string
-    Reader::present_value(const DeclaredEntry &entry,
-                          const std::string   &value,
-                          const std::string   &place)
+    Reader::present_value(const EntryRecord &entry,
+                          const std::string &value,
+                          const std::string &place)
     {
-      const auto description = read_word_description(entry.pattern);
-      char      *end         = nullptr;
-      if (!description || description->old_value.empty() || value.empty() ||
-          std::strtod(value.c_str(), &end) !=
-            std::strtod(description->old_value.c_str(), nullptr) ||
-          *end != '\0')
+      const auto *either =
+        dynamic_cast<const WordOrNumber *>(entry.pattern.get());
+      if (either == nullptr || !either->is_old_value(value))
         return value;
       origins.add_warning(place + ": " + quote(entry.path) + " = " + value +
-                          " is now written " + quote(description->word) +
+                          " is now written " + quote(either->word) +
                           "; the number will no longer be accepted.");
-      return description->word;
-    }
-
-    void
-    Reader::set_value(const DeclaredEntry &entry,
-                      const std::string   &value,
-                      const std::string   &place)
-    {
-      for (const std::string &subsection : entry.subsections)
-        prm.enter_subsection(subsection);
-
-      // deal.II's pattern for an unsigned integer lets -1 through and makes
-      // 4294967295 of it.
-      bool        is_allowed = entry.pattern != "[Integer]" || value[0] != '-';
-      std::string reason;
-      try
-        {
-          if (is_allowed)
-            prm.set(entry.name, value);
-        }
-      catch (const BadInput &error) // of an expression
-        {
-          is_allowed = false;
-          reason     = error.what();
-        }
-      catch (const std::exception &)
-        {
-          is_allowed = false;
-        }
-
-      for (std::size_t i = 0; i < entry.subsections.size(); ++i)
-        prm.leave_subsection();
-      if (!is_allowed)
-        throw BadInput(
-          place + ": " +
-          (!reason.empty() ?
-             reason :
-             quote(entry.path) + " cannot be " +
-               (value.empty() ? "empty" : quote(value)) + "." +
-               did_you_mean(nearest_names(value, choices_of(entry.pattern)))) +
-          "\n  Allowed: " + allowed_values(entry.pattern) + "." +
-          (entry.documentation.empty() ?
-             "" :
-             "\n  Meaning: " + entry.documentation));
+      return either->word;
     }
   } // namespace
 
   ParameterOrigins
-  read_parameters(dealii::ParameterHandler       &prm,
-                  const std::string              &file_name,
+  read_parameters(const std::string              &file_name,
                   const std::vector<std::string> &overrides,
                   const DeclareSubsection        &declare)
   {
-    Reader reader(prm, declare);
+    Reader reader(declare);
     if (!file_name.empty())
       reader.read_file(file_name);
     reader.read_overrides(overrides);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/text.h>
+
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -13,8 +16,7 @@ namespace CaissonMPM
     bool
     contains(const std::string &path, const std::string &entry)
     {
-      return entry.compare(0, path.size(), path) == 0 &&
-             (entry.size() == path.size() || entry[path.size()] == '/');
+      return entry == path || boost::starts_with(entry, path + "/");
     }
 
     bool
@@ -35,17 +37,25 @@ namespace CaissonMPM
         at = text.find(path, at + 1);
       return at;
     }
+
+    /** Return the paths of the entries that a text names, in its order. */
+    std::vector<std::string>
+    entries_named_in(const std::string &text)
+    {
+      // of two that begin at the same place, the longer one is meant
+      std::map<std::size_t, std::string> found;
+      for (const std::string &path : entry_paths())
+        if (const std::size_t at = find_path(text, path);
+            path.find('/') != std::string::npos && at != std::string::npos &&
+            path.size() > found[at].size())
+          found[at] = path;
+      std::vector<std::string> result;
+      for (const auto &[at, path] : found)
+        if (!path.empty())
+          result.push_back(path);
+      return result;
+    }
   } // namespace
-
-  ParameterOrigins::ParameterOrigins(const std::vector<std::string> &paths)
-    : paths(paths)
-  {}
-
-  void
-  ParameterOrigins::set_paths(const std::vector<std::string> &all_paths)
-  {
-    paths = all_paths;
-  }
 
   void
   ParameterOrigins::record(const std::string &path,
@@ -96,10 +106,11 @@ namespace CaissonMPM
     unsigned int                   n_unused = 0;
     for (const auto &[entry, place] : places)
       {
-        bool is_unused = false;
-        for (const std::string &path : paths)
-          is_unused = is_unused || contains(path, entry);
-        if (!is_unused || place.may_be_unused ||
+        const auto has = [&entry = entry](const std::string &path) {
+          return contains(path, entry);
+        };
+        if (place.may_be_unused ||
+            std::none_of(paths.begin(), paths.end(), has) ||
             std::find(used.begin(), used.end(), entry) != used.end())
           continue;
         if (++n_unused == 1)
@@ -138,23 +149,6 @@ namespace CaissonMPM
   {
     const auto place = places.find(path);
     return place == places.end() ? "" : place->second.directory;
-  }
-
-  std::vector<std::string>
-  ParameterOrigins::entries_named_in(const std::string &text) const
-  {
-    // of two that begin at the same place, the longer one is meant
-    std::map<std::size_t, std::string> found;
-    for (const std::string &path : paths)
-      if (const std::size_t at = find_path(text, path);
-          path.find('/') != std::string::npos && at != std::string::npos &&
-          path.size() > found[at].size())
-        found[at] = path;
-    std::vector<std::string> result;
-    for (const auto &[at, path] : found)
-      if (!path.empty())
-        result.push_back(path);
-    return result;
   }
 
   std::string

@@ -4,6 +4,9 @@
 #include <caisson_mpm/base/parameter_text.h>
 #include <caisson_mpm/base/text.h>
 
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -30,51 +33,12 @@ namespace CaissonMPM
             result.push_back((parent / item.path().filename()).string());
         return result;
       }
-
-      std::string
-      with_replaced(const std::string &text,
-                    const std::string &old_part,
-                    const std::string &new_part)
-      {
-        std::string result;
-        std::size_t from = 0;
-        for (std::size_t at = text.find(old_part); at != std::string::npos;
-             at             = text.find(old_part, from))
-          {
-                        result += text.substr(from, at - from) + new_part;
-                        from = at + old_part.size();
-          }
-        return result + text.substr(from);
-      }
     } // namespace
-
-    bool
-    is_space(const char c)
-    {
-      return std::isspace(static_cast<unsigned char>(c)) != 0;
-    }
-
-    std::string
-    trim(const std::string &text)
-    {
-      std::size_t begin = 0, end = text.size();
-      while (begin < end && is_space(text[begin]))
-        ++begin;
-      while (end > begin && is_space(text[end - 1]))
-        --end;
-      return text.substr(begin, end - begin);
-    }
 
     std::string
     condense(const std::string &text)
     {
-      std::string result;
-      for (const char c : trim(text))
-        if (!is_space(c))
-          result += c;
-        else if (result.back() != ' ')
-          result += ' ';
-      return result;
+      return boost::trim_fill_copy(text, " ");
     }
 
     std::string
@@ -92,7 +56,7 @@ namespace CaissonMPM
     {
       std::string line;
       for (std::size_t i = 0; i < value.size(); ++i)
-        if (is_space(value[i]))
+        if (std::isspace(static_cast<unsigned char>(value[i])) != 0)
           line += ' ';
         else if (is_control(value, i))
           throw BadInput(place + ": " + quote(path) +
@@ -102,16 +66,16 @@ namespace CaissonMPM
                          ".\n  Remove it.");
         else
           line += value[i];
-      return trim(line);
+      return boost::trim_copy(line);
     }
 
     std::string
     with_plain_spaces(const std::string &text)
     {
       std::string result = text;
-      for (const std::string space :
+      for (const char *const space :
            {"\xC2\xA0", "\xE2\x80\x87", "\xE2\x80\xAF"})
-        result = with_replaced(result, space, " ");
+        boost::replace_all(result, space, " ");
       return result;
     }
 
@@ -157,7 +121,8 @@ namespace CaissonMPM
         text.erase(0, 3);
       if (text.size() > largest_size)
         throw BadInput(file + " has more than 16 MB. Is it the right file?");
-      text = with_replaced(with_replaced(text, "\r\n", "\n"), "\r", "\n");
+      boost::replace_all(text, "\r\n", "\n");
+      boost::replace_all(text, "\r", "\n");
       return with_plain_spaces(text);
     }
 
@@ -172,7 +137,7 @@ namespace CaissonMPM
         {
           ++number;
           const std::size_t mark = std::min(raw.find('#'), raw.size());
-          std::string       text = trim(raw.substr(0, mark));
+          std::string       text = boost::trim_copy(raw.substr(0, mark));
           if (!continues)
             lines.push_back({number, "", ""});
           continues = !text.empty() && text.back() == '\\';

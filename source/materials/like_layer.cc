@@ -4,6 +4,8 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/materials/like_layer.h>
 
+#include <deal.II/base/parameter_acceptor.h>
+
 #include <algorithm>
 
 namespace CaissonMPM
@@ -35,15 +37,15 @@ namespace CaissonMPM
 
     /** Return the number of the layer that this one is like, 0 without one. */
     unsigned int
-    number_of_model(const DeclaredEntries &entries, const unsigned int layer)
+    number_of_model(const unsigned int layer)
     {
-      const DeclaredEntry &entry =
-        *entries.find(section_of(layer) + "/" + like);
-      if (entry.value == "none")
+      const EntryRecord &entry = *find_entry(section_of(layer) + "/" + like);
+      const std::string  value = entry.value();
+      if (value == "none")
         return 0;
-      const unsigned int model = std::stoul(entry.value);
+      const unsigned int model = std::stoul(value);
       if (model >= layer)
-        throw BadInput(entry.path + " = " + entry.value +
+        throw BadInput(entry.path + " = " + value +
                        " is not the number of a layer above. Set one, or "
                        "none.");
       return model;
@@ -51,21 +53,21 @@ namespace CaissonMPM
   } // namespace
 
   void
-  fill_like_layers(dealii::ParameterHandler &prm, ParameterOrigins &origins)
+  fill_like_layers(ParameterOrigins &origins)
   {
+    auto &prm = dealii::ParameterAcceptor::prm;
     for (unsigned int layer = 1;
          prm.subsection_path_exists({"Soil", "Layer " + to_text(layer)});
          ++layer)
       {
-        const DeclaredEntries entries(prm); // with what the last one took over
-        const unsigned int    model = number_of_model(entries, layer);
+        const unsigned int model = number_of_model(layer);
         if (model == 0)
           continue;
         const std::string own = section_of(layer) + "/",
                           its = section_of(model) + "/";
         // before any entry is taken over
         const ParameterOrigins before = origins;
-        for (const DeclaredEntry &entry : entries.all())
+        for (const EntryRecord &entry : declared_entries())
           {
             if (entry.path.compare(0, its.size(), its) != 0 ||
                 !before.is_set(entry.path) || entry.name == "Top depth" ||
@@ -78,7 +80,7 @@ namespace CaissonMPM
               continue;
             prm.enter_subsection("Soil");
             prm.enter_subsection("Layer " + to_text(layer));
-            prm.set(entry.name, entry.value);
+            prm.set(entry.name, entry.value());
             prm.leave_subsection();
             prm.leave_subsection();
             origins.record(own + entry.name,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/text.h>
@@ -90,19 +89,12 @@ namespace CaissonMPM
            ", where s = " + to_text(place.vertical_stress, 4) +
              " Pa and p = " + to_text(place.mean_stress, 4) + " Pa" :
            "") +
-        ". It must be " +
-        allowed_values(pattern->description(PatternBase::Machine)) +
-        " in the whole layer.");
+        ". It must be " + allowed_values(*pattern) + " in the whole layer.");
     return value;
   }
 
   ProfilePattern::ProfilePattern(const PatternBase &number)
     : number(number.clone())
-  {}
-
-  ProfilePattern::ProfilePattern(const ProfilePattern &other)
-    : PatternBase(other)
-    , number(other.number->clone())
   {}
 
   bool
@@ -112,9 +104,11 @@ namespace CaissonMPM
   }
 
   std::string
-  ProfilePattern::description(const OutputStyle style) const
+  ProfilePattern::description(const OutputStyle) const
   {
-    return "[Profile " + number->description(style) + "]";
+    return allowed_values(*number) +
+           ", or an expression in d (the depth, m), s and p (the effective "
+           "vertical and mean stress at the start, Pa)";
   }
 
   std::unique_ptr<PatternBase>

@@ -60,7 +60,7 @@ namespace CaissonMPM
     std::string lines;
     for (const ChangedEntry &entry : changes)
       {
-        const EntryRecord *const about = record_of(entry.path);
+        const EntryRecord *const about = find_entry(entry.path);
         if (about == nullptr || about->influence != Influence::motion)
           lines += line_of(entry);
         if (entry.path == "Water/Level" &&

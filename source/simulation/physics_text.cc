@@ -29,28 +29,26 @@ namespace CaissonMPM
 
 
   std::string
-  physics(const dealii::ParameterHandler &prm)
+  physics()
   {
-    const DeclaredEntries entries(prm);
-    std::string           result;
-    for (const DeclaredEntry &entry : entries.all())
+    std::string result;
+    for (const EntryRecord &entry : declared_entries())
       if (entry.influence != Influence::none)
-        result += entry.path + " = " + entry.value + "\n";
+        result += entry.path + " = " + entry.value() + "\n";
     return result;
   }
 
 
 
   std::string
-  changed_physics(const dealii::ParameterHandler &prm)
+  changed_physics()
   {
-    const DeclaredEntries entries(prm);
     std::set<std::string> lines;
-    for (const DeclaredEntry &entry : entries.all())
+    for (const EntryRecord &entry : declared_entries())
       if (entry.influence != Influence::none &&
-          entry.value != entry.default_value && entry.path != "Title" &&
+          entry.value() != entry.default_value && entry.path != "Title" &&
           entry.path != "Method/Instruction set")
-        lines.insert(entry.path + " = " + entry.value + "\n");
+        lines.insert(entry.path + " = " + entry.value() + "\n");
     return std::accumulate(lines.begin(), lines.end(), std::string());
   }
 

@@ -9,7 +9,6 @@
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/revision.h>
 
 #include <cerrno>
@@ -77,18 +76,18 @@ namespace CaissonMPM
     Json
     about_input(const RunFacts &facts)
     {
-      const DeclaredEntries declared(ParameterAcceptor::prm);
       Json entries = Json::object(), defaults = entries, units = entries,
            warnings = Json::array();
-      for (const DeclaredEntry &entry : declared.all())
-        if (entry.value != entry.default_value)
+      for (const EntryRecord &entry : declared_entries())
+        if (const std::string value = entry.value();
+            value != entry.default_value)
           {
-            entries[entry.path] = entry.value;
+            entries[entry.path] = value;
             if (!entry.unit.empty())
               units[entry.path] = entry.unit;
           }
         else if (entry.path.find("Soil/Layer ") != 0)
-          defaults[entry.path] = entry.value;
+          defaults[entry.path] = value;
       for (const Warning &warning : facts.warnings)
         warnings.push_back(warning.text);
       return {{"entries", entries},

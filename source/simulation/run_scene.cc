@@ -23,15 +23,13 @@ namespace CaissonMPM
                      const std::string      &word,
                      std::ostream           &out)
     {
-      const auto       &prm     = dealii::ParameterAcceptor::prm;
-      const std::string entries = word.empty() ? describe_parameters(prm) :
-                                                 describe_parameters(prm, word);
+      const std::string entries =
+        word.empty() ? describe_parameters() : describe_parameters(word);
       for (const std::string &text : origins.warnings())
         out << "# warning: " << printable(text) << '\n';
       out << entries;
       if (word.empty())
-        out << "# fingerprint: " << fingerprint_of(changed_physics(prm))
-            << '\n';
+        out << "# fingerprint: " << fingerprint_of(changed_physics()) << '\n';
     }
 
     /** Print the warnings, each with the places of the entries that it names.
@@ -106,17 +104,14 @@ namespace CaissonMPM
   run_scene(const CommandLine &command_line, std::ostream &out)
   {
     Simulation simulation(MPI_COMM_WORLD);
-    auto       origins = read_parameters(dealii::ParameterAcceptor::prm,
-                                   command_line.parameter_file,
+    auto       origins = read_parameters(command_line.parameter_file,
                                    command_line.overrides,
                                    [&simulation](const std::string &path) {
                                      return simulation.declare_subsection(path);
                                    });
     if (!command_line.output_directory.empty())
       origins.record("Output/Directory", "--output-directory");
-    with_places(origins, [&]() {
-      fill_like_layers(dealii::ParameterAcceptor::prm, origins);
-    });
+    with_places(origins, [&]() { fill_like_layers(origins); });
     if (command_line.print_parameters || !command_line.explain.empty())
       {
         print_parameters(origins, command_line.explain, out);

@@ -454,7 +454,7 @@ namespace CaissonMPM
                      gather(grid, water->fields()),
                      state,
                      warnings,
-                     physics(prm) + soil.checksums_of_libraries());
+                     physics() + soil.checksums_of_libraries());
   }
 
   std::string

@@ -45,8 +45,7 @@ namespace CaissonMPM
     if (is_restart)
       {
         const Checkpoint checkpoint(recorder.output_directory());
-        checkpoint.check_fingerprint(physics(prm) +
-                                     soil.checksums_of_libraries());
+        checkpoint.check_fingerprint(physics() + soil.checksums_of_libraries());
         const auto number = [&](const std::string &name) {
           return number_named(name, checkpoint.state()).value_or(0.);
         };
@@ -58,7 +57,7 @@ namespace CaissonMPM
     else if (installation.is_given())
       {
         installation.open(recorder.output_directory(),
-                          physics(prm) + soil.checksums_of_libraries());
+                          physics() + soil.checksums_of_libraries());
         begin_at(installation.end_of_motion(),
                  installation.checkpoint().state());
       }
@@ -315,7 +314,7 @@ namespace CaissonMPM
     check_parameters();
     recorder.describe(command_line.parameter_file,
                       command_line.text,
-                      fingerprint_of(changed_physics(prm)),
+                      fingerprint_of(changed_physics()),
                       installation.directory(),
                       *kernels);
     recorder.report_progress("the mesh of " + lines.description());

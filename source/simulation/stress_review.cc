@@ -7,7 +7,6 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/scene_review.h>
 
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -57,18 +56,18 @@ namespace CaissonMPM
                                "1 MPa is 1e6 Pa.";
 
     bool
-    is_in_pascals(const DeclaredEntry &entry)
+    is_in_pascals(const EntryRecord &entry)
     {
       return entry.unit == "Pa";
     }
 
     /** The number that an entry has; 0 where it has none, as an expression. */
     double
-    number_of(const DeclaredEntry &entry)
+    number_of(const EntryRecord &entry)
     {
       try
         {
-          return Utilities::string_to_double(entry.value);
+          return Utilities::string_to_double(entry.value());
         }
       catch (const ExceptionBase &)
         {
@@ -80,8 +79,7 @@ namespace CaissonMPM
   void
   SceneReview::stresses()
   {
-    const DeclaredEntries entries(ParameterAcceptor::prm);
-    for (const DeclaredEntry &entry : entries.all())
+    for (const EntryRecord &entry : declared_entries())
       if (is_in_pascals(entry) && origins.is_set(entry.path))
         {
           const bool is_of_layer =
@@ -99,7 +97,7 @@ namespace CaissonMPM
   }
 
   std::optional<unsigned int>
-  SceneReview::strongest(const DeclaredEntry &entry) const
+  SceneReview::strongest(const EntryRecord &entry) const
   {
     std::optional<unsigned int> found;
     const std::string           layer = "Soil/" + entry.subsections[1];
@@ -114,7 +112,7 @@ namespace CaissonMPM
   }
 
   void
-  SceneReview::stress(const DeclaredEntry         &entry,
+  SceneReview::stress(const EntryRecord           &entry,
                       const double                 value,
                       const std::optional<double> &friction_angle)
   {

@@ -53,7 +53,7 @@ test_bad_files()
 {
   title("files that cannot be read");
   const auto read_file = [](const std::string &name) {
-    print_error(name, [&]() { read_parameters(ParameterAcceptor::prm, name); });
+    print_error(name, [&]() { read_parameters(name); });
   };
   read_file("missing/jack.prm");
   read_file("jcak.prm"); // jack.prm is there from the test before
@@ -127,7 +127,7 @@ read_files(const std::vector<std::pair<std::string, std::string>> &files)
 {
   for (const auto &[name, text] : files)
     std::ofstream("scenes/" + name, std::ios::binary) << text;
-  return read_parameters(ParameterAcceptor::prm, "scenes/" + files[0].first);
+  return read_parameters("scenes/" + files[0].first);
 }
 
 
@@ -189,9 +189,7 @@ test_bad_overrides()
     std::string all;
     for (const std::string &text : overrides)
       all += "--set \"" + text + "\" ";
-    print_error(printable(all), [&]() {
-      read_parameters(ParameterAcceptor::prm, "", overrides);
-    });
+    print_error(printable(all), [&]() { read_parameters("", overrides); });
   };
   read({"Soil/Friction angle=38"});
   read({"Soil/Friction"});

@@ -92,20 +92,45 @@ test_descriptions()
     std::make_shared<WordOrNumber>("auto", -1., Patterns::Double(0., 10.)),
     std::make_shared<WordOrNumber>("never", std::nullopt, Patterns::Double())};
   for (const auto &pattern : patterns)
-    std::cout << allowed_values(pattern->description()) << '\n';
+    std::cout << allowed_values(*pattern) << '\n';
 
   title("all entries, readable as a parameter file");
-  const std::string text = describe_parameters(ParameterAcceptor::prm);
+  const std::string text = describe_parameters();
   std::cout << text;
   read_sample(text);
-  std::cout << "read again: "
-            << (describe_parameters(ParameterAcceptor::prm) == text) << '\n';
+  std::cout << "read again: " << (describe_parameters() == text) << '\n';
 
   title("entries with a word");
   for (const char *word : {"friction", "INTERNAL friction", "Frcition angle"})
-    print_error(word, [&]() {
-      std::cout << describe_parameters(ParameterAcceptor::prm, word);
-    });
+    print_error(word, [&]() { std::cout << describe_parameters(word); });
+}
+
+
+
+/** More of the section of SoilEntries. */
+struct MoreOfSoil : public Section
+{
+  MoreOfSoil()
+    : Section("Soil")
+  {
+    add_parameter("Porosity", porosity, "", "The share of the pores.");
+  }
+
+  double porosity = .4;
+};
+
+
+
+void
+test_late_entry()
+{
+  title("an entry that is declared late, and gone");
+  {
+    const MoreOfSoil more;
+    for (const std::string &path : entry_paths())
+      std::cout << path << '\n';
+  }
+  std::cout << (find_entry("Soil/Porosity") == nullptr) << '\n';
 }
 
 
@@ -135,6 +160,7 @@ main(int, char **)
                 "  set Points per cell = 4\nend\nend\n",
                 {"Soil/Friction angle=38"});
     test_descriptions();
+    test_late_entry();
   }
   test_nearest_names();
   return 0;

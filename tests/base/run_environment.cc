@@ -214,9 +214,7 @@ test_stop_request()
     // Entries of objects that are gone must not be set.
     ParameterAcceptor::clear();
     StopRequest request;
-    read_parameters(ParameterAcceptor::prm,
-                    "",
-                    {"Run control/Wall time limit=0.01"});
+    read_parameters("", {"Run control/Wall time limit=0.01"});
     request.arm("results");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ask(request);
@@ -232,9 +230,7 @@ test_stop_file()
     {
       ParameterAcceptor::clear();
       StopRequest request;
-      read_parameters(ParameterAcceptor::prm,
-                      "",
-                      {"Run control/Stop file=" + name});
+      read_parameters("", {"Run control/Stop file=" + name});
       ParameterAcceptor::parse_all_parameters();
       print_error('"' + name + '"', [&]() { request.check_parameters(); });
     }

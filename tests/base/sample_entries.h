@@ -132,7 +132,7 @@ read_sample(const std::string              &text,
             const std::vector<std::string> &overrides = {})
 {
   std::ofstream("jack.prm", std::ios::binary) << text;
-  return read_parameters(ParameterAcceptor::prm, "jack.prm", overrides);
+  return read_parameters("jack.prm", overrides);
 }
 
 #endif

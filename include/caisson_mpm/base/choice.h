@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Entries whose text is parsed once, when it is set: a name that chooses one
-// value of an enumeration, and a word that stands in the place of a number.
+// value of an enumeration, and a word that stands in the place of a number;
+// and what a pattern allows, in words.
 #ifndef caisson_mpm_base_choice_h
 #define caisson_mpm_base_choice_h
 
@@ -97,26 +98,29 @@ namespace CaissonMPM
                  const std::optional<double>          old_value,
                  const dealii::Patterns::PatternBase &number);
 
-    WordOrNumber(const WordOrNumber &other);
-
     bool
     match(const std::string &text) const override;
 
-    /** "[Word auto, formerly -1, or [Double 0...1 (inclusive)]]" */
+    /** "auto, or a number from 0 to 1" in any style. */
     std::string
-    description(const OutputStyle style = OutputStyle::Machine) const override;
+    description(const OutputStyle style = Machine) const override;
 
     std::unique_ptr<dealii::Patterns::PatternBase>
     clone() const override;
+
+    /** Whether the text is the special number of earlier versions. */
+    bool
+    is_old_value(const std::string &text) const;
 
     /** Return no value for the word and for the old special number. */
     std::optional<double>
     value_of(const std::string &text) const;
 
+    const std::string word;
+
   private:
-    std::string                                    word;
-    std::optional<double>                          old_value;
-    std::unique_ptr<dealii::Patterns::PatternBase> number;
+    std::optional<double>                                old_value;
+    std::shared_ptr<const dealii::Patterns::PatternBase> number;
   };
 
   /**
@@ -141,19 +145,14 @@ namespace CaissonMPM
     const std::string                   &text,
     const dealii::Patterns::PatternBase &number = dealii::Patterns::Double());
 
-  /** What the description of a WordOrNumber says. */
-  struct WordDescription
-  {
-    std::string word;
-    /** Empty if there was none. */
-    std::string old_value;
-    /** The description of the pattern of the number. */
-    std::string number;
-  };
+  /** The values that a pattern accepts, in words: "a number from 0 to 90". */
+  std::string
+  allowed_values(const dealii::Patterns::PatternBase &pattern);
 
-  /** Read WordOrNumber::description(); no value for any other pattern. */
-  std::optional<WordDescription>
-  read_word_description(const std::string &pattern);
+  /** The words among which a pattern lets the user choose; none where it is
+   * another kind of pattern. */
+  std::vector<std::string>
+  choices_of(const dealii::Patterns::PatternBase &pattern);
 } // namespace CaissonMPM
 
 #endif

@@ -1,99 +1,65 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The entries that have been declared in a ParameterHandler, as a list that
+// The entries that the sections of the program have declared, as a list that
 // can be searched and printed.
 #ifndef caisson_mpm_base_declared_entries_h
 #define caisson_mpm_base_declared_entries_h
 
-#include <caisson_mpm/base/section.h>
+#include <deal.II/base/patterns.h>
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <map>
-#include <set>
+#include <list>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** One entry; its path is "Section/Sub/Entry". */
-  struct DeclaredEntry
+  class Section;
+
+  /** What an entry decides. */
+  enum class Influence
   {
+    ground, // the state of the ground, too
+    motion, // how the body moves, and what its walls and the water do to it: it
+            // may change in a run after an installation
+    none    // nothing of the state at a given time
+  };
+
+  /** An entry as it was declared; its path is "Section/Sub/Entry". */
+  struct EntryRecord
+  {
+    const Section           *owner;
     std::vector<std::string> subsections;
-    std::string              name;
-    std::string              path;
-    std::string              value;
+    std::string              name, path;
     std::string              default_value;
-    std::string              documentation;
-    std::string              unit; // empty where there is none
-    /** As Patterns::PatternBase::description() writes it. */
-    std::string pattern;
-    Influence   influence = Influence::ground;
+    std::string              unit;          // empty where there is none
+    std::string              documentation; // with the unit
+    Influence                influence;
+
+    std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
+
+    /** The value that it has now. */
+    std::string
+    value() const;
   };
 
-  /**
-   * All declared entries, in the order of declaration, and all subsections.
-   * A snapshot: values that are set later are not seen.
-   *
-   * @code
-   * const DeclaredEntries entries(prm);
-   * if (const DeclaredEntry *entry = entries.find("Soil/Density"))
-   *   std::cout << entry->documentation;
-   * @endcode
-   */
-  class DeclaredEntries
-  {
-  public:
-    explicit DeclaredEntries(const dealii::ParameterHandler &prm);
+  /** All entries in the order of declaration, those of a section together. */
+  const std::list<EntryRecord> &
+  declared_entries();
 
-    /** The entry of this path, or a null pointer. */
-    const DeclaredEntry *
-    find(const std::string &path) const;
+  /** The entry of this path, or a null pointer. */
+  const EntryRecord *
+  find_entry(const std::string &path);
 
-    bool
-    has_subsection(const std::string &path) const
-    {
-      return subsections.count(path) > 0;
-    }
-
-    /** The paths of all entries. */
-    std::vector<std::string>
-    entry_paths() const;
-
-    std::vector<std::string>
-    subsection_paths() const
-    {
-      return {subsections.begin(), subsections.end()};
-    }
-
-    const std::vector<DeclaredEntry> &
-    all() const
-    {
-      return entries;
-    }
-
-  private:
-    /** Add all that the tree holds below the subsections @p above. */
-    void
-    collect(const boost::property_tree::ptree &tree,
-            const std::vector<std::string>    &above);
-
-    std::vector<DeclaredEntry>         entries;
-    std::map<std::string, std::size_t> index;
-    std::set<std::string>              subsections;
-  };
-
-  /**
-   * The values that a pattern accepts, in words: "a number from 0 to 90" for
-   * "[Double 0...90 (inclusive)]".
-   */
-  std::string
-  allowed_values(const std::string &pattern);
-
-  /** The words among which a pattern lets the user choose; none where it is
-   * another kind of pattern. */
   std::vector<std::string>
-  choices_of(const std::string &pattern);
+  entry_paths();
+
+  /** The paths of all sections with entries, and of those around them. */
+  std::vector<std::string>
+  section_paths();
+
+  bool
+  has_section(const std::string &path);
 
   /**
    * All entries with their documentation, the values allowed, the default
@@ -101,7 +67,7 @@ namespace CaissonMPM
    * read again as a parameter file.
    */
   std::string
-  describe_parameters(const dealii::ParameterHandler &prm);
+  describe_parameters();
 
   /**
    * The same for those entries alone with a word in their path, or, where
@@ -111,8 +77,7 @@ namespace CaissonMPM
    * names, where no entry has the word.
    */
   std::string
-  describe_parameters(const dealii::ParameterHandler &prm,
-                      const std::string              &word);
+  describe_parameters(const std::string &word);
 } // namespace CaissonMPM
 
 #endif

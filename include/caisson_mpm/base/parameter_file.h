@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Reading a parameter file (and --set) into a ParameterHandler, with messages
+// Reading a parameter file (and --set) into the declared entries, with messages
 // from which the user can repair the input.
 #ifndef caisson_mpm_base_parameter_file_h
 #define caisson_mpm_base_parameter_file_h
 
 #include <caisson_mpm/base/parameter_origins.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <functional>
 #include <string>
@@ -21,10 +19,9 @@ namespace CaissonMPM
 
   /**
    * Read the file and then the overrides ("Section/Sub/Entry=value") into
-   * @p prm, in which all entries have been declared; classes derived from
-   * ParameterAcceptor declare theirs in ParameterAcceptor::prm. An empty file
-   * name reads the overrides only. An override replaces the file's value. Where
-   * a subsection is not declared, @p declare is asked to do so.
+   * the entries that the sections have declared. An empty file name reads the
+   * overrides only. An override replaces the file's value. Where a subsection
+   * is not declared, @p declare is asked to do so.
    *
    * The syntax is deal.II's (subsection, set, end, include; "#" begins a
    * comment, "\" at the end of a line continues it), with three differences
@@ -42,8 +39,7 @@ namespace CaissonMPM
    * every rank reads the file and comes to the same result.
    */
   ParameterOrigins
-  read_parameters(dealii::ParameterHandler       &prm,
-                  const std::string              &file_name,
+  read_parameters(const std::string              &file_name,
                   const std::vector<std::string> &overrides = {},
                   const DeclareSubsection        &declare   = {});
 } // namespace CaissonMPM

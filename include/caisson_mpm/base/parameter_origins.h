@@ -20,16 +20,6 @@ namespace CaissonMPM
   class ParameterOrigins
   {
   public:
-    ParameterOrigins() = default;
-
-    /** @p paths are all entries that can be set. */
-    explicit ParameterOrigins(const std::vector<std::string> &paths);
-
-    /** Tell it all entries that can be set, after there have come to be more.
-     */
-    void
-    set_paths(const std::vector<std::string> &all_paths);
-
     /**
      * Remember that the entry "Section/Sub/Entry" was set at this place;
      * @p may_be_unused says that add_unused() passes it over, @p is_assumed
@@ -120,11 +110,6 @@ namespace CaissonMPM
       std::string directory;
     };
 
-    /** Return the paths of the entries that a text names, in its order. */
-    std::vector<std::string>
-    entries_named_in(const std::string &text) const;
-
-    std::vector<std::string>       paths;
     std::map<std::string, Setting> places;
     std::vector<std::string>       notes, doubts;
     std::set<std::string>          cosmetic;

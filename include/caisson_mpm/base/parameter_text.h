@@ -11,12 +11,6 @@ namespace CaissonMPM
 {
   namespace ParameterText
   {
-    bool
-    is_space(const char c);
-
-    std::string
-    trim(const std::string &text);
-
     /** Trim, and make one space of each run of white space. */
     std::string
     condense(const std::string &text);

@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_base_section_h
 #define caisson_mpm_base_section_h
 
+#include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/parameter_origins.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -15,22 +16,6 @@
 
 namespace CaissonMPM
 {
-  /** What an entry decides. */
-  enum class Influence
-  {
-    ground, // the state of the ground, too
-    motion, // how the body moves, and what its walls and the water do to it: it
-            // may change in a run after an installation
-    none    // nothing of the state at a given time
-  };
-
-  /** What deal.II does not know of an entry. */
-  struct EntryRecord
-  {
-    std::string unit; // empty: none
-    Influence   influence = Influence::ground;
-  };
-
   /**
    * A ParameterAcceptor that keeps a record of each entry that it declares,
    * with add_parameter() here or with the functions of choice.h. Where one of
@@ -46,6 +31,11 @@ namespace CaissonMPM
       : ParameterAcceptor(name)
       , influence(influence)
     {}
+
+    Section(const Section &) = delete;
+
+    /** The records of its entries go with it. */
+    ~Section() override;
 
     /**
      * Declare an entry that sets @p value, whose present value is the default.
@@ -65,17 +55,16 @@ namespace CaissonMPM
                     *dealii::Patterns::Tools::Convert<Value>::to_pattern())
     {
       ParameterAcceptor::add_parameter(entry, value, text, prm, pattern);
-      return record(entry, unit);
+      return record(entry, unit, text, pattern);
     }
 
     /** Keep the record of an entry that has been declared in the present
      * subsection. */
     EntryRecord &
-    record(const std::string &entry, const std::string &unit);
-
-    /** The record of an entry of any section; null: it is not declared. */
-    static const EntryRecord *
-    record_of(const std::string &path);
+    record(const std::string                   &entry,
+           const std::string                   &unit,
+           const std::string                   &text,
+           const dealii::Patterns::PatternBase &pattern);
 
     /** The path of an entry in the present subsection. */
     std::string

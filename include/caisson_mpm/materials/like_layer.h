@@ -6,8 +6,6 @@
 
 #include <caisson_mpm/base/parameter_origins.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 namespace CaissonMPM
 {
   /**
@@ -18,7 +16,7 @@ namespace CaissonMPM
    * not the number of a layer above. Not collective.
    */
   void
-  fill_like_layers(dealii::ParameterHandler &prm, ParameterOrigins &origins);
+  fill_like_layers(ParameterOrigins &origins);
 } // namespace CaissonMPM
 
 #endif

@@ -92,11 +92,10 @@ namespace CaissonMPM
     /** @p number is what numbers may be. */
     explicit ProfilePattern(const dealii::Patterns::PatternBase &number);
 
-    ProfilePattern(const ProfilePattern &other);
-
     bool
     match(const std::string &text) const override;
 
+    /** In words, in any style. */
     std::string
     description(const OutputStyle style = Machine) const override;
 
@@ -104,7 +103,7 @@ namespace CaissonMPM
     clone() const override;
 
   private:
-    const std::unique_ptr<dealii::Patterns::PatternBase> number;
+    std::shared_ptr<const dealii::Patterns::PatternBase> number;
   };
 
   /** Declare an entry that sets @p profile, a member of @p owner; its default

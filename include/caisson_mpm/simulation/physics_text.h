@@ -4,8 +4,6 @@
 #ifndef caisson_mpm_simulation_physics_text_h
 #define caisson_mpm_simulation_physics_text_h
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <string>
 #include <vector>
 
@@ -15,12 +13,12 @@ namespace CaissonMPM
    * in the order of their declaration: a run may only be continued with the
    * same ones. */
   std::string
-  physics(const dealii::ParameterHandler &prm);
+  physics();
 
   /** Return those that are not defaults, in alphabetical order: a new entry or
    * another order of declaration does not change the text. */
   std::string
-  changed_physics(const dealii::ParameterHandler &prm);
+  changed_physics();
 
   /** An entry that differs between two texts of physics(). */
   struct ChangedEntry

@@ -61,9 +61,9 @@ namespace CaissonMPM
     stresses();
     /** The material of a layer in which an entry of its law is largest. */
     std::optional<unsigned int>
-    strongest(const DeclaredEntry &entry) const;
+    strongest(const EntryRecord &entry) const;
     void
-    stress(const DeclaredEntry         &entry,
+    stress(const EntryRecord           &entry,
            const double                 value,
            const std::optional<double> &friction_angle);
     void
