@@ -5,7 +5,7 @@ For scripts and notebooks (doc/how_to/python.md):
 
     import caisson
 
-    scene = caisson.suggest_scene("own.prm", diameter=10, skirt=8, wall="40mm", sand="dense")
+    scene = caisson.suggest_scene("own.prm", diameter=10, skirt=8, wall="40mm")
     run = caisson.run(scene, set={"Time/Inertia tolerance": 0.1})
     run = caisson.load("results/own")   # or one that is there
     run.history                         # a pandas.DataFrame; attrs["units"]

@@ -32,8 +32,6 @@ PAGE, PICTURE, TABLE = "vessel.html", "vessel.png", "vessel.csv"
 EXTRAPOLATED = "extrapolated"  # the column that names the lines that are
 
 
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson log`."""
     add = parser.add_argument

@@ -67,8 +67,6 @@ def print_pdf(path: Path) -> Path:
     return pdf
 
 
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson report`."""
     add_method_arguments(parser)

@@ -62,8 +62,6 @@ LEAST_RECORDS = 100
 FAILS = "the first steps of the run fail"  # of --validate
 
 
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     add = parser.add_argument
