@@ -6,7 +6,7 @@ LAW = "Mohr-Coulomb by density and stress"
 HYPOPLASTIC = "hypoplastic sand with intergranular strain"
 NOR_SAND = "NorSand"
 # in run.json the friction angle of these laws is the critical one
-BY_DENSITY = ("hypoplastic sand", HYPOPLASTIC, LAW, NOR_SAND)
+BY_DENSITY = (HYPOPLASTIC, LAW, NOR_SAND)
 
 # entries of LAW alone
 CRITICAL_ANGLE = "Critical friction angle"  # degrees

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <stdexcept>
 
 namespace CaissonMPM
@@ -26,16 +27,33 @@ namespace CaissonMPM
     const std::string list_hint =
       "\n  \"caisson_mpm --print-parameters\" lists all entries.";
 
-    /** Entries of earlier versions, and what to do instead. */
+    const std::string
+      no_softening = "Remove it. Strength falls as sand dilates with Law = "
+                     "Mohr-Coulomb by density and stress.",
+      no_length    = "Remove it: shear bands are about a cell wide, so compare "
+                     "meshes.";
+
+    /** Entries and values of earlier versions, and what to do instead; k is the
+     * number of a layer, or a face. */
     const std::map<std::string, std::string> removed_entries = {
       {"Method/Velocity transfer",
        "Set FLIP fraction: 1 is FLIP, 0 is XPIC, which with XPIC order = 1 is "
        "PIC, and auto is the blend."},
       {"Method/Integration",
        "Gauss in full cells is what the program does; for material points, set "
-       "Full cell fraction = 2 and Full cell fraction inside = 2."},
+       "Full cell fraction = 2."},
+      {"Method/Full cell fraction inside",
+       "Remove it: it is 0.4, or that of the surface where this is less or 2."},
       {"Method/Velocity limiter",
        "Set Limiter factor = none in the place of false."},
+      {"Grid/Upper zone",
+       "Remove it: the mesh above the body moves with it. Raise Grid/Top by the "
+       "travel."},
+      {"Rigid body/Friction coefficient of the k",
+       "Set the Friction angle, whose tangent it is."},
+      {"Rigid body/Lowering delay", "Remove it: it is 0.02 s."},
+      {"Water/Pump delay", "Remove it: it is 0.1 s."},
+      {"Water/Suction delay", "Remove it: it is 0.02 s."},
       {"Grid/Refined distance along wall",
        "Remove it: it is the thickness of the wall."},
       {"Output/Error bar",
@@ -48,7 +66,32 @@ namespace CaissonMPM
       {"Design methods/Plug permeability ratio",
        "Call scripts/caisson report --plug-permeability-ratio X DIR."},
       {"Design methods/Load spread",
-       "Call scripts/caisson report --load-spread X DIR."}};
+       "Call scripts/caisson report --load-spread X DIR."},
+      {"Soil/Layer k/Law = Mohr-Coulomb with softening",
+       "Set Mohr-Coulomb by density and stress, whose strength falls as sand "
+       "dilates; of clay, set Mohr-Coulomb with the residual strength."},
+      {"Soil/Layer k/Law = Mohr-Coulomb with stiffness by stress",
+       "Set Mohr-Coulomb by density and stress, whose stiffness follows the "
+       "stress, too, or set an expression in p as Youngs modulus."},
+      {"Soil/Layer k/Law = hypoplastic sand",
+       "Set hypoplastic sand with intergranular strain."},
+      {"Soil/Layer k/Residual friction angle", no_softening},
+      {"Soil/Layer k/Residual dilatancy angle", no_softening},
+      {"Soil/Layer k/Residual cohesion", no_softening},
+      {"Soil/Layer k/Softening shape factor", no_softening},
+      {"Soil/Layer k/Internal length", no_length},
+      {"Soil/Layer k/Internal velocity", no_length}};
+
+    /** What to do instead of an entry, or of "entry = value"; empty: it is none
+     * of an earlier version. */
+    std::string
+    advice_on_removed(const std::string &name)
+    {
+      static const std::regex k("(Layer )[0-9]+|(coefficient of the ).*");
+      const auto              old =
+        removed_entries.find(std::regex_replace(name, k, "$1$2k"));
+      return old == removed_entries.end() ? "" : old->second;
+    }
 
     /** Whether there have been entries in this section. */
     bool
@@ -83,10 +126,15 @@ namespace CaissonMPM
         }
       catch (const std::exception &)
         {
+          const std::string advice =
+            advice_on_removed(entry.path + " = " + value);
           reason =
-            quote(entry.path) + " cannot be " +
-            (value.empty() ? "empty" : quote(value)) + "." +
-            did_you_mean(nearest_names(value, choices_of(*entry.pattern)));
+            !advice.empty() ?
+              "there is no " + entry.name + " " + quote(value) +
+                " any more.\n  " + advice :
+              quote(entry.path) + " cannot be " +
+                (value.empty() ? "empty" : quote(value)) + "." +
+                did_you_mean(nearest_names(value, choices_of(*entry.pattern)));
         }
       for (std::size_t i = 0; i < entry.subsections.size(); ++i)
         prm.leave_subsection();
@@ -387,10 +435,9 @@ namespace CaissonMPM
     {
       if (has_section(path))
         return place + ": " + quote(path) + " is a subsection, not an entry.";
-      if (const auto old = removed_entries.find(path);
-          old != removed_entries.end())
+      if (const std::string advice = advice_on_removed(path); !advice.empty())
         return place + ": there is no entry " + quote(path) + " any more.\n  " +
-               old->second;
+               advice;
       std::vector<std::string> names = names_of_symbol(path, entry_paths());
       if (names.empty())
         names = nearest_names(path, entry_paths());

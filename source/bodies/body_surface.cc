@@ -42,18 +42,6 @@ namespace CaissonMPM
                         name + ".",
                       Patterns::Double(0., 89.))
           .influence = Influence::motion;
-        add_word_or_number(
-          *this,
-          "Friction coefficient of the " + name,
-          coefficient[s],
-          "by angle",
-          {},
-          "",
-          "The coefficient of friction between soil and the body's " + name +
-            ", which is the tangent of the friction angle, instead of that "
-            "angle.",
-          Patterns::Double(0.))
-          .influence = Influence::motion;
         add_parameter("Adhesion of the " + name,
                       adhesion[s],
                       "Pa",
@@ -66,42 +54,17 @@ namespace CaissonMPM
   double
   BodySurface::friction_coefficient(const Surface surface) const
   {
-    return coefficient[surface].value_or(
-      std::tan(radians(friction_angle[surface])));
-  }
-
-  std::array<double, n_surfaces>
-  BodySurface::friction_angles() const
-  {
-    std::array<double, n_surfaces> result = friction_angle;
-    for (unsigned int s = 0; s < n_surfaces; ++s)
-      if (coefficient[s])
-        result[s] = std::atan(*coefficient[s]) * 180. / pi;
-    return result;
-  }
-
-  std::string
-  BodySurface::friction_entry(const Surface surface) const
-  {
-    return "Rigid body/Friction " +
-           std::string(has_coefficient(surface) ? "coefficient" : "angle") +
-           " of the " + name_of(surface);
+    return std::tan(radians(friction_angle[surface]));
   }
 
   void
   BodySurface::name_unused_surfaces(ParameterOrigins &origins,
                                     const BodyShape  &shape) const
   {
-    for (unsigned int s = 0; s < n_surfaces; ++s)
-      if (coefficient[s])
-        origins.add_unused({"Rigid body/Friction angle of the " +
-                            name_of(static_cast<Surface>(s))},
-                           friction_entry(static_cast<Surface>(s)) + " is set");
     const auto add_unused = [&origins](const Surface      surface,
                                        const std::string &reason) {
       const std::string of = " of the " + name_of(surface);
       origins.add_unused({"Rigid body/Friction angle" + of,
-                          "Rigid body/Friction coefficient" + of,
                           "Rigid body/Adhesion" + of},
                          reason);
     };

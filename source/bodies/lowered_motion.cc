@@ -14,6 +14,7 @@ namespace CaissonMPM
   {
     constexpr double share_of_load = .1; // excess at which v = v0
     constexpr double slowest_rise  = -.2;
+    constexpr double delay         = .02; // s, over which R is averaged
     constexpr double ramp          = .5;  // s, from 0 to v0
     constexpr double share_at_rest = .02; // of v0
   }                                       // namespace
@@ -28,13 +29,6 @@ namespace CaissonMPM
                   "m/s",
                   "The largest velocity of a body that is lowered.",
                   Patterns::Double(1e-9));
-    add_parameter(
-      "Lowering delay",
-      delay,
-      "s",
-      "The velocity of a body that is lowered follows the resistance of the "
-      "soil with this time constant.",
-      Patterns::Double(1e-6));
   }
 
   void

@@ -151,14 +151,6 @@ namespace CaissonMPM
       "m",
       "The zone that moves with the body reaches this far below its tip.",
       not_negative);
-    add_choice<UpperZone>(*this,
-                          "Upper zone",
-                          upper_zone,
-                          {{"free", UpperZone::free},
-                           {"extending", UpperZone::extending}},
-                          "",
-                          "The mesh above the body moves with it (free), or "
-                          "stretches up to a fixed top (extending).");
     add_parameter(
       "Smallest row height",
       smallest_row,
@@ -198,11 +190,8 @@ namespace CaissonMPM
   {
     if (expanding_radius > 0.)
       return z0;
-    double rate = -1.;
-    if (z0 < zone_bottom)
-      rate = -(z0 - bottom) / (zone_bottom - bottom);
-    else if (z0 > zone_top && upper_zone == UpperZone::extending)
-      rate = -(top - z0) / (top - zone_top);
+    const double rate =
+      z0 < zone_bottom ? -(z0 - bottom) / (zone_bottom - bottom) : -1.;
     return z0 + rate * travel;
   }
 
@@ -312,12 +301,8 @@ namespace CaissonMPM
   GridLines::Zone
   GridLines::zone_of(const GlobalCell cell) const
   {
-    const double z = rows[row_of(cell)];
-    if (z < zone_bottom - 1e-9)
-      return Zone::compressing;
-    if (z >= zone_top - 1e-9 && upper_zone == UpperZone::extending)
-      return Zone::upper;
-    return Zone::moving;
+    return rows[row_of(cell)] < zone_bottom - 1e-9 ? Zone::compressing :
+                                                     Zone::moving;
   }
 
   std::string

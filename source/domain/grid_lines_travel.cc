@@ -45,14 +45,14 @@ namespace CaissonMPM
   }
 
   unsigned int
-  GridLines::flattest_row_at(const double travel, const bool above_body) const
+  GridLines::flattest_row_at(const double travel) const
   {
     unsigned int flattest = n_rows();
     for (unsigned int j = 0; j < n_rows(); j += tree_.root_size())
-      if (above_body ? rows[j] > zone_top - 1e-9 : rows[j] < zone_bottom - 1e-9)
-        if (flattest == n_rows() ||
-            height_of_row(j, travel) < height_of_row(flattest, travel))
-          flattest = j;
+      if (rows[j] < zone_bottom - 1e-9 &&
+          (flattest == n_rows() ||
+           height_of_row(j, travel) < height_of_row(flattest, travel)))
+        flattest = j;
     return flattest;
   }
 
@@ -85,20 +85,6 @@ namespace CaissonMPM
                      "tip = " +
                      meters(zone_below_tip) +
                      ". Reduce that, or lower Grid/Bottom.");
-    if (upper_zone == UpperZone::free)
-      return;
-    if (top <= zone_top)
-      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
-                     "raise Grid/Top above " +
-                     meters(zone_top) + ".");
-    const unsigned int row      = flattest_row_at(-uplift_to_hold, true);
-    const double       smallest = height_of_row(row, -uplift_to_hold);
-    if (smallest < smallest_row_height())
-      throw BadInput(
-        "Moving up by " + meters(uplift_to_hold) +
-        " compresses a row above the body to " + meters(smallest) +
-        ", below Grid/Smallest row height = " + meters(smallest_row_height()) +
-        ". Raise Grid/Top, or set Grid/Upper zone = free.");
   }
 
   void
@@ -133,22 +119,16 @@ namespace CaissonMPM
                      meters(travel_to_hold) + ". Lower Grid/Bottom below " +
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");
-    const unsigned int row = flattest_row_at(travel_to_hold, false);
+    const unsigned int row = flattest_row_at(travel_to_hold);
     if (row < n_rows() &&
         height_of_row(row, travel_to_hold) < smallest_row_height())
       refuse_flat_row(row);
-    if (upper_zone == UpperZone::free && height_at(top, travel_to_hold) <= 0.)
+    if (height_at(top, travel_to_hold) <= 0.)
       throw BadInput("After a travel of " + meters(travel_to_hold) +
                      " the top of the mesh lies at z = " +
                      meters(height_at(top, travel_to_hold)) +
                      ", below the soil surface. Raise Grid/Top to more than " +
-                     meters(travel_to_hold) +
-                     " plus the expected heave, or set Grid/Upper zone = "
-                     "extending.");
-    if (upper_zone == UpperZone::extending && top <= zone_top)
-      throw BadInput("Grid/Upper zone = extending needs cells above the body: "
-                     "raise Grid/Top above " +
-                     meters(zone_top) + ".");
+                     meters(travel_to_hold) + " plus the expected heave.");
   }
 
   void

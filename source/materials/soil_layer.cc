@@ -117,7 +117,6 @@ namespace CaissonMPM
       "The elastic law is formulated in this stress: with Kirchhoff, it is "
       "Hencky's law for the logarithmic strain since the start. Strength is "
       "always that of the Cauchy stress.");
-    declare_internal_length();
     declare_user_material();
     declare_walls();
   }
@@ -248,27 +247,6 @@ namespace CaissonMPM
   }
 
   void
-  SoilLayer::declare_internal_length()
-  {
-    add_parameter(
-      "Internal length",
-      soil.internal_length,
-      "m",
-      "The strength of soil that shears grows by the share l g / v, where l is "
-      "this length, g the rate of shear and v the internal velocity, so that a "
-      "shear band is some of these lengths wide; 0 leaves its width to the "
-      "mesh.",
-      Patterns::Double(0.));
-    add_parameter(
-      "Internal velocity",
-      soil.internal_velocity,
-      "m/s",
-      "The internal length is that of shear bands whose sides pass each other "
-      "at this velocity, which should be that of the body.",
-      Patterns::Double(1e-12));
-  }
-
-  void
   SoilLayer::name_unused_entries(ParameterOrigins &origins) const
   {
     std::vector<std::string> unused;
@@ -280,9 +258,6 @@ namespace CaissonMPM
     if (law != Kernels::UserMaterial::name)
       unused.insert(unused.end(), user_entries.begin(), user_entries.end());
     origins.add_unused(unused, section() + "/Law is " + law);
-    if (soil.internal_length == 0.)
-      origins.add_unused({section() + "/Internal velocity"},
-                         section() + "/Internal length is 0");
     if (!adhesion_factor)
       origins.add_unused({section() + "/Sensitivity"},
                          section() +

@@ -86,11 +86,6 @@ namespace CaissonMPM
       throw BadInput(section() + "/Stress measure = Kirchhoff: the law " +
                      law_name() +
                      " has no elasticity of its own. Set it to Cauchy.");
-    if (internal_length > 0. && !description(law).has_yield_surface)
-      throw BadInput(
-        section() + "/Internal length = " + to_text(internal_length) +
-        " m: the law " + law_name() + " has none. Set the length to 0, or " +
-        section() + "/Law to Mohr-Coulomb or Mohr-Coulomb with softening.");
   }
 
   bool
@@ -186,17 +181,9 @@ namespace CaissonMPM
   }
 
   double
-  SoilMaterial::cohesion_after(const double plastic_deviatoric) const
+  SoilMaterial::tension() const
   {
-    const double peak     = shear_strength().value_or(0.),
-                 residual = law_value("Residual cohesion").value_or(peak),
-                 rate     = law_value("Softening shape factor").value_or(0.);
-    return residual + (peak - residual) * std::exp(-rate * plastic_deviatoric);
-  }
-
-  double
-  SoilMaterial::tension_of(const double cohesion) const
-  {
+    const double cohesion = shear_strength().value_or(0.);
     if (cohesion <= 0.)
       return 0.;
     // at most that of the apex of the cone, c cot phi
@@ -221,10 +208,6 @@ namespace CaissonMPM
   std::string
   SoilMaterial::known_limit() const
   {
-    // what is said of softening, the length takes care of
-    if (internal_length > 0. && description(law).has_yield_surface &&
-        law_value("Softening shape factor"))
-      return "";
     if (umat && !umat->warning().empty())
       return section() + ": " + umat->warning();
     Kernels::Material material;
@@ -269,7 +252,6 @@ namespace CaissonMPM
   {
     description(law).set(material, law_values.data());
     material.initial_void_ratio = void_ratio();
-    material.overstress_time    = internal_length / internal_velocity;
     material.stress_measure     = stress_measure;
     if (!umat)
       return;

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM
@@ -74,15 +75,8 @@ namespace CaissonMPM
       "",
       "The internal force of a cell at a free surface is integrated at Gauss "
       "points only if its material points fill this share of its volume; with "
-      "0.05 less, it is integrated at these points only. 2 is at material "
-      "points everywhere.",
-      Patterns::Double(0.1, never_full));
-    add_parameter(
-      "Full cell fraction inside",
-      full_fraction_inside,
-      "",
-      "A cell inside the soil, with filled cells around it, takes Gauss points "
-      "only if its points fill this share of its volume.",
+      "0.05 less, it is integrated at these points only. Inside the soil a share "
+      "of 0.4 is enough. 2 is at material points everywhere.",
       Patterns::Double(0.1, never_full));
     add_choice(
       *this,
@@ -156,11 +150,6 @@ namespace CaissonMPM
   void
   MethodSettings::check_parameters() const
   {
-    if (full_fraction_inside > full_fraction)
-      throw BadInput(
-        "Method/Full cell fraction inside = " + to_text(full_fraction_inside) +
-        " exceeds Method/Full cell fraction = " + to_text(full_fraction) +
-        ". Reduce it.");
     if (!uses_musl() && flip_fraction == 1. && damping == 0. &&
         !minimum_nodal_mass)
       throw BadInput("Method/Stress update = USL with Method/FLIP fraction = 1 "
@@ -176,8 +165,7 @@ namespace CaissonMPM
     if (integrates_at_points())
       origins.add_unused({"Method/Pressure in full cells",
                           "Method/Stress filter"},
-                         "no cell is full with Method/Full cell fraction and "
-                         "Method/Full cell fraction inside");
+                         "no cell is full with Method/Full cell fraction = 2");
   }
 
   double
@@ -190,8 +178,10 @@ namespace CaissonMPM
   Kernels::IntegrationSettings
   MethodSettings::integration() const
   {
+    constexpr double inside = .4;
     return {full_fraction,
-            full_fraction_inside,
+            integrates_at_points() ? full_fraction :
+                                     std::min(full_fraction, inside),
             minimum_nodal_mass,
             pressure_fit};
   }

@@ -243,7 +243,7 @@ namespace CaissonMPM
       if (members.empty())
         return members;
       const BodyShape &shape  = parts.body.shape();
-      const auto       angles = parts.body.surface().friction_angles();
+      const auto      &angles = parts.body.surface().friction_angle;
       append(members,
              {{"tip_width_m", shape.width_of_tip()},
               {"inner_radius_m", shape.left()},

@@ -379,7 +379,7 @@ namespace CaissonMPM
   SceneReview::friction()
   {
     const BodyShape    &shape   = scene.body.shape();
-    const auto          angles  = scene.body.surface().friction_angles();
+    const auto         &angles  = scene.body.surface().friction_angle;
     const double        depth   = shape.expands() ?
                                     scene.lines.depth() :
                                     scene.lines.total_travel() - shape.bottom();
@@ -434,19 +434,10 @@ namespace CaissonMPM
   void
   SceneReview::too_rough(const Surface surface, const std::string &exceeds)
   {
-    const BodySurface &body  = scene.body.surface();
-    const double       angle = body.friction_angles()[surface];
-    if (body.has_coefficient(surface))
-      doubt(body.friction_entry(surface),
-            body.friction_coefficient(surface),
-            "",
-            "is an angle of " + to_text(angle, 4) + " degrees. It " + exceeds +
-              on_rough_surface);
-    else
-      doubt(body.friction_entry(surface),
-            angle,
-            "degrees",
-            exceeds + on_rough_surface);
+    doubt("Rigid body/Friction angle of the " + name_of(surface),
+          scene.body.surface().friction_angle[surface],
+          "degrees",
+          exceeds + on_rough_surface);
   }
 
   void

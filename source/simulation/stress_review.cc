@@ -41,7 +41,6 @@ namespace CaissonMPM
       {"Granulate hardness", "that of a soil", 1e7, any, 1e12},
       {"Reference stress", "that of a soil", 1e3, any, 1e12},
       {"Active strength", undrained.of, 1e3, .1, 1e7},
-      {"Residual cohesion", with_friction.of, 100., .01, 1e7},
       {"Tension cut-off", "the tension that a soil bears", 250., .01, any},
       {"Smallest stress of strength", "that of a soil", 1e3, any, 1e8},
       {"Smallest stress of stiffness", "that of a soil", 10., any, 1e7},

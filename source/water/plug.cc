@@ -251,11 +251,10 @@ namespace CaissonMPM
         return;
       const unsigned int  i = std::clamp(depth, 0., .999) * n_slices;
       const SoilMaterial &m = scene.soil.material(p.material);
-      const double        c = m.cohesion_after(p.plastic_deviatoric);
       volumes[i] += p.volume;
       weights[i] += p.volume * scene.soil.unit_weight(m);
-      cohesions[i] += p.volume * c;
-      tensions[i] = std::min(tensions[i], m.tension_of(c));
+      cohesions[i] += p.volume * m.shear_strength().value_or(0.);
+      tensions[i] = std::min(tensions[i], m.tension());
     };
     for (const unsigned int cell : scene.points.cells_with_points())
       if (scene.grid.geometry(cell).left < wall)

@@ -17,7 +17,10 @@ namespace CaissonMPM
   namespace
   {
     constexpr double atmosphere = 101.3e3, vapor_pressure = 1.2e3; // Pa, 10 C
-  }                                                                // namespace
+    // s, after which the suction follows the required one, and in which it
+    // changes by a tenth of weight and suction where no water follows the pump
+    constexpr double delay = .02, pump_delay = .1;
+  } // namespace
 
   SeaSettings::SeaSettings()
     : Section("/Water", Influence::motion)
@@ -91,19 +94,6 @@ namespace CaissonMPM
       Patterns::List(Patterns::List(Patterns::Double(0.), 2, 2, ":"),
                      0,
                      10000));
-    add_parameter(
-      "Pump delay",
-      pump_delay,
-      "s",
-      "The suction changes by a tenth of weight and suction in this time where "
-      "no water follows the pump.",
-      Patterns::Double(1e-3));
-    add_parameter(
-      "Suction delay",
-      delay,
-      "s",
-      "The suction follows the required one with this time constant.",
-      Patterns::Double(1e-6));
     add_word_or_number(
       *this,
       "Largest suction",
@@ -167,7 +157,7 @@ namespace CaissonMPM
   {
     const std::vector<std::pair<Control, std::vector<std::string>>> entries = {
       {Control::table, {"Water/Suction table"}},
-      {Control::flow, {"Water/Pumped flow table", "Water/Pump delay"}},
+      {Control::flow, {"Water/Pumped flow table"}},
       {Control::sealed, {"Water/Lid water modulus", "Water/Lid leak"}}};
     const std::string required = "required: the suction is a result",
                       why[] = {required, required, "table", "flow", "sealed"},
@@ -176,8 +166,6 @@ namespace CaissonMPM
     for (const auto &[other, names] : entries)
       if (other != control)
         origins.add_unused(names, now);
-    if (!is_required())
-      origins.add_unused({"Water/Suction delay"}, now);
     if (control == Control::sealed)
       origins.add_unused({"Water/Largest suction"},
                          "Water/Suction control is sealed: there is no pump");
@@ -208,7 +196,7 @@ namespace CaissonMPM
     required_     = (load.resistance - load.weight) / load.area;
     if (settings.is_required())
       {
-        suction -= std::expm1(-dt / settings.delay) * (required_ - suction);
+        suction -= std::expm1(-dt / delay) * (required_ - suction);
         suction = std::max(suction, 0.);
         return;
       }
@@ -231,7 +219,7 @@ namespace CaissonMPM
       dt * value_at(settings.flow_table, time) - (load.volume - last_volume);
     constexpr double share = .1; // at which a body that is lowered is fastest
     const double     rate  = share * (load.weight / load.area + suction) /
-                        (settings.largest_flow * settings.pump_delay); // Pa/m3
+                        (settings.largest_flow * pump_delay); // Pa/m3
     const double ambient = sea.ambient_pressure(soil.unit_weight_of_water()),
                  left    = ambient - suction,
                  volume  = settings.gas * ambient / left;

@@ -67,11 +67,10 @@ void
 check_cells()
 {
   const Lines s(caisson + "subsection Rigid body\nset Lid thickness = 0.25\n"
-                          "end\nsubsection Grid\nset Upper zone = extending\n"
                           "end\n",
                 3.);
   const GridLines &lines = s.lines;
-  unsigned int     wrong = 0, n_body = 0, n_lid = 0, n_zone[3] = {0, 0, 0};
+  unsigned int     wrong = 0, n_body = 0, n_lid = 0, n_zone[2] = {0, 0};
   for (unsigned int c = 0; c < lines.n_cells(); ++c)
     {
       const GlobalCell       cell{c};
@@ -88,14 +87,13 @@ check_cells()
     }
   verdict("cells: wrong numbers, places or body cells", wrong, 0.);
   std::printf("cells %u x %u, body %u, of the lid %u, moving %u, "
-              "compressing %u, upper %u\n",
+              "compressing %u\n",
               lines.n_columns(),
               lines.n_rows(),
               n_body,
               n_lid,
               n_zone[0],
-              n_zone[1],
-              n_zone[2]);
+              n_zone[1]);
   std::printf("sides of corners: %u %u %u %u, inside %u\n",
               lines.sides_of(0, 0),
               lines.sides_of(lines.n_columns(), 0),
@@ -386,7 +384,6 @@ check_refusals()
   refuse("", 5.);
   refuse("", 4.49);
   refuse("subsection Grid\nset Moving zone below tip = 0.1\nend\n", 1.);
-  refuse("subsection Grid\nset Upper zone = extending\nend\n", 0., 1.49);
   // a thin layer is named
   refuse("subsection Soil\nset Number of layers = 3\n"
          "subsection Layer 2\nset Top depth = 4\nend\n"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The sands of the tests of HypoplasticSand.
+// The sands of the tests of hypoplasticity. Their intergranular strain changes
+// no stiffness, and is so small that it has the direction of the strain.
 #ifndef caisson_mpm_tests_hypoplastic_test_h
 #define caisson_mpm_tests_hypoplastic_test_h
 
-#include <caisson_mpm/kernels/hypoplastic.h>
+#include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 
 #include "law_test.h"
 
@@ -15,10 +16,16 @@ constexpr double hochstetten[] =
 
 
 
-inline HypoplasticSand::Parameters
+using Law = HypoplasticIntergranular;
+
+inline Law::Parameters
 parameters_of(const double *values)
 {
-  return read_parameters<HypoplasticSand>(values);
+  double all[n_entries<Law>] = {
+    0., 0., 0., 0., 0., 0., 0., 0., 0., 4e-5, 1., 1., .5, 6., 1.};
+  for (int i = 0; i < 9; ++i)
+    all[i] = values[i];
+  return read_parameters<Law>(all);
 }
 
 #endif

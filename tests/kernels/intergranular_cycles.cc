@@ -8,7 +8,6 @@
 #include "intergranular_test.h"
 
 /** Oedometric cycles of strain; amplitude from peak to peak. */
-template <typename AnyLaw>
 std::vector<double>
 cycles(const double amplitude, const int n_cycles, const int n_steps)
 {
@@ -20,7 +19,7 @@ cycles(const double amplitude, const int n_cycles, const int n_steps)
     {
       const double sign = half % 2 == 0 ? -1. : 1.;
       for (int i = 0; i < n_steps; ++i)
-        strain<AnyLaw>(point, {0., sign * amplitude / n_steps, 0., 0.}, p);
+        strain(point, {0., sign * amplitude / n_steps, 0., 0.}, p);
       axial.push_back(-point.stress.zz[0]);
     }
   return axial;
@@ -63,7 +62,7 @@ test_cycles()
       double error = 0.;
       for (const int n_steps : {1, 20, 1000})
         {
-          const auto found = cycles<Law>(c.amplitude, 3, n_steps);
+          const auto found = cycles(c.amplitude, 3, n_steps);
           for (int i = 0; i < 6; ++i)
             raise(error, std::fabs(found[i] / c.axial[i] - 1.));
         }
@@ -71,11 +70,8 @@ test_cycles()
       std::snprintf(name, sizeof(name), "amplitude %g, error", c.amplitude);
       report(name, error, 5e-3);
     }
-  const double with    = cycles<Law>(2e-5, 50, 10).back(),
-               without = cycles<HypoplasticSand>(2e-5, 50, 10).back();
-  std::printf("axial stress after 50 cycles of 2e-5: %.1f kPa, without %.1f\n",
-              with / 1e3,
-              without / 1e3);
+  std::printf("axial stress after 50 cycles of 2e-5: %.1f kPa\n",
+              cycles(2e-5, 50, 10).back() / 1e3);
 }
 
 

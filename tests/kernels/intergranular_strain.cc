@@ -23,17 +23,16 @@ test_stiffness()
   Point        point;
   std::printf("Stiffness\n");
   report("at rest, m_R L",
-         difference(stiffness<Law>(point, D, p),
+         difference(stiffness(point, D, p),
                     times(m_R, linear_stiffness(point, D, p))),
          1e-3);
   for (unsigned int i = 0; i < 200; ++i)
-    strain<Law>(point, times(range, D), p);
+    strain(point, times(range, D), p);
   report("straight on, no memory",
-         difference(stiffness<Law>(point, D, p),
-                    stiffness<HypoplasticSand>(point, D, p)),
+         difference(stiffness(point, D, p), stiffness_without(point, D, p)),
          1e-3);
   report("reversed, m_R L",
-         difference(stiffness<Law>(point, times(-1., D), p),
+         difference(stiffness(point, times(-1., D), p),
                     times(-m_R, linear_stiffness(point, D, p))),
          1e-3);
   // normal to D, and on the side of the reversal
@@ -42,7 +41,7 @@ test_stiffness()
   normal             = minus(normal, times(along, D));
   normal             = times(1. / norm(normal), normal);
   report("turned, m_T L",
-         difference(stiffness<Law>(point, minus(normal, times(1e-9, D)), p),
+         difference(stiffness(point, minus(normal, times(1e-9, D)), p),
                     times(m_T, linear_stiffness(point, normal, p))),
          1e-3);
 }
@@ -61,7 +60,7 @@ test_growth()
       {
         Point point;
         for (int i = 0; i < n; ++i)
-          strain<Law>(point, times(e * range / n, D), p);
+          strain(point, times(e * range / n, D), p);
         const double found = norm(point.memory) / range - (1. - std::exp(-e));
         raise(n == 1000 ? error : step, std::fabs(found));
       }
@@ -92,7 +91,7 @@ test_rotation()
       Point point;
       point.stress = turned(point.stress, angle);
       point.memory = turned(memory, angle);
-      strain<Law>(point, turned(D, angle), p);
+      strain(point, turned(D, angle), p);
       if (angle == 0.)
         straight = point;
       raise(error,
@@ -139,7 +138,7 @@ test_any_state()
       point.stress     = any(std::pow(10., 3. + 3. * uniform(generator)));
       point.memory     = any(range);
       point.void_ratio = .7 + .15 * uniform(generator);
-      strain<Law>(point, any(std::pow(10., -5. + 3. * uniform(generator))), p);
+      strain(point, any(std::pow(10., -5. + 3. * uniform(generator))), p);
       raise(length, norm(point.memory) / range);
       not_finite += !std::isfinite(norm(point.stress));
 
@@ -154,9 +153,7 @@ test_any_state()
       const double nr = std::cos(angle), nz = std::sin(angle);
       const double mr = std::cos(turn), mz = std::sin(turn);
       const Stress answer =
-        stiffness<Law>(point,
-                       {mr * nr, mz * nz, 0., .5 * (mr * nz + mz * nr)},
-                       p);
+        stiffness(point, {mr * nr, mz * nz, 0., .5 * (mr * nz + mz * nr)}, p);
       const double wave = (mr * (answer.rr * nr + answer.rz * nz) +
                            mz * (answer.rz * nr + answer.zz * nz))[0];
       raise(excess,

@@ -5,7 +5,6 @@
 #ifndef caisson_mpm_tests_intergranular_test_h
 #define caisson_mpm_tests_intergranular_test_h
 
-#include <caisson_mpm/kernels/hypoplastic.h>
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 
 #include "law_test.h"
@@ -90,9 +89,8 @@ difference(const Stress &a, const Stress &b)
 
 
 
-template <typename AnyLaw>
-void
-strain(Point &point, const Stress &D, const typename AnyLaw::Parameters &p)
+inline void
+strain(Point &point, const Stress &D, const Law::Parameters &p)
 {
   LawState<Scalar> state;
   state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
@@ -101,7 +99,7 @@ strain(Point &point, const Stress &D, const typename AnyLaw::Parameters &p)
   const Scalar  variable[] = {h.rr, h.zz, h.tt, h.rz};
   for (int i = 0; i < 4; ++i)
     state.variable[i] = variable[i];
-  AnyLaw::update(point.stress, {D.rr, D.zz, D.tt, D.rz}, state, p);
+  Law::update(point.stress, {D.rr, D.zz, D.tt, D.rz}, state, p);
   point.void_ratio += (1. + point.void_ratio) * (D.rr + D.zz + D.tt)[0];
   point.memory = {state.variable[0],
                   state.variable[1],
@@ -112,27 +110,37 @@ strain(Point &point, const Stress &D, const typename AnyLaw::Parameters &p)
 
 
 /** The stress increment for a tiny strain @p D, over its length. */
-template <typename AnyLaw>
-Stress
-stiffness(const Point                       &at,
-          const Stress                      &D,
-          const typename AnyLaw::Parameters &p)
+inline Stress
+stiffness(const Point &at, const Stress &D, const Law::Parameters &p)
 {
   constexpr double tiny  = 1e-11;
   Point            point = at;
-  strain<AnyLaw>(point, times(tiny, D), p);
+  strain(point, times(tiny, D), p);
   return times(1. / tiny, minus(point.stress, at.stress));
 }
 
 
 
-/** The same of the linear part L alone, without intergranular strain. */
+/** The same without intergranular strain, if the length of D counts as much as
+ * @p nonlinear says: 1, or 0 for the linear part L alone. */
+inline Stress
+stiffness_without(const Point           &at,
+                  const Stress          &D,
+                  const Law::Parameters &p,
+                  const double           nonlinear = 1.)
+{
+  return Law::stress_increment(Law::shifted(at.stress, p),
+                               Scalar(at.void_ratio),
+                               D,
+                               Scalar(nonlinear * norm(D)),
+                               p);
+}
+
+/** L alone. */
 inline Stress
 linear_stiffness(const Point &at, const Stress &D, const Law::Parameters &p)
 {
-  return times(.5,
-               minus(stiffness<HypoplasticSand>(at, D, p),
-                     stiffness<HypoplasticSand>(at, times(-1., D), p)));
+  return stiffness_without(at, D, p, 0.);
 }
 
 #endif

@@ -161,7 +161,6 @@ make_scene(const double axisymmetric, const bool affine)
         }
     }
   s.material.initial_void_ratio = .6;
-  s.material.overstress_time    = 0.;
   s.material.body_force[0] = .3, s.material.body_force[1] = -9.;
   s.material.p_wave_modulus = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
   const double values[]     = {E, nu};

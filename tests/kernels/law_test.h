@@ -175,8 +175,9 @@ class Sample
 public:
   typename Law::Parameters parameters;
   double                   lateral, axial; // stress, tension positive
-  double                   void_ratio = 1.;
-  double                   plastic    = 0.;
+  double                   void_ratio                  = 1.;
+  double                   plastic                     = 0.;
+  double                   variable[n_state_variables] = {}; // of its state
 
   Sample(const typename Law::Parameters &parameters,
          const double                    pressure,
@@ -185,7 +186,9 @@ public:
     , lateral(-pressure)
     , axial(-pressure)
     , void_ratio(void_ratio)
-  {}
+  {
+    Law::start(parameters, variable);
+  }
 
   void
   strain(const double d_lateral, const double d_axial)
@@ -195,6 +198,8 @@ public:
     state.plastic_deviatoric = Scalar(plastic);
     state.plastic_volumetric = Scalar(0.);
     state.void_ratio         = Scalar(void_ratio);
+    for (int i = 0; i < n_state_variables; ++i)
+      state.variable[i] = Scalar(variable[i]);
     Law::update(sigma,
                 StrainIncrement<Scalar>{d_lateral, d_axial, d_lateral, 0.},
                 state,
@@ -202,6 +207,8 @@ public:
     lateral = sigma.rr[0];
     axial   = sigma.zz[0];
     plastic = state.plastic_deviatoric[0];
+    for (int i = 0; i < n_state_variables; ++i)
+      variable[i] = state.variable[i][0];
     // the volume of a point grows with exp(tr D) as steps become small
     void_ratio = (1. + void_ratio) * std::exp(2. * d_lateral + d_axial) - 1.;
   }

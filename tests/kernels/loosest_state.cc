@@ -14,6 +14,7 @@ namespace
     typename Law::Parameters parameters;
     double                   pressure, void_ratio;
     double                   elastic = 0., plastic = 0.; // growth
+    double                   variable[n_state_variables] = {};
 
     void
     strain(const double volumetric)
@@ -23,10 +24,14 @@ namespace
       LawState<Scalar>    state;
       state.plastic_deviatoric = state.plastic_volumetric = Scalar(0.);
       state.void_ratio                                    = Scalar(void_ratio);
+      for (int i = 0; i < n_state_variables; ++i)
+        state.variable[i] = Scalar(variable[i]);
       Law::update(sigma,
                   StrainIncrement<Scalar>{d, d, d, 0.},
                   state,
                   parameters);
+      for (int i = 0; i < n_state_variables; ++i)
+        variable[i] = state.variable[i][0];
       plastic += state.plastic_volumetric[0];
       elastic += volumetric - state.plastic_volumetric[0];
       pressure   = -(sigma.rr[0] + sigma.zz[0] + sigma.tt[0]) / 3.;
@@ -86,12 +91,10 @@ namespace
   }
 
   /** Elastic steps along the loosest state lose nothing. */
-  template <typename Law>
   void
-  check_elastic_steps(const double *values,
-                      const double  e_max,
-                      const double  tolerance)
+  check_elastic_steps(const double *values, const double e_max)
   {
+    using Law             = MohrCoulomb;
     Sphere<Law>      soil = {read_parameters<Law>(values), 0., e_max};
     constexpr double step = 1e-5;
     constexpr int    n    = 400;
@@ -104,14 +107,14 @@ namespace
       soil.strain(-step);
     verdict("pressure after an elastic cycle",
             std::abs(soil.pressure / loaded - 1.),
-            tolerance);
+            1e-4);
   }
 
   /** Triaxial compression: dilation ends at the loosest state. */
-  template <typename Law>
   void
   check_dilation(const double *values, const double void_ratio)
   {
+    using Law = MohrCoulomb;
     Sample<Law> soil(read_parameters<Law>(values), 1e5, void_ratio);
     double      too_loose = 0., last = 0.;
     for (int i = 0; i < 4000; ++i)
@@ -200,19 +203,16 @@ namespace
 int
 main()
 {
-  const double sand[]      = {20e6, .25, 35., 10., 0., 0., .8},
-               stiffened[] = {20e6, .25, 35., 10., 0., 0., .8, 1e5, .5, 1e3};
+  const double sand[] = {20e6, .25, 35., 10., 0., 0., .8};
   check_gap<MohrCoulomb>(sand, .6, 1e-6);
   check_plastic_strain(sand, .6);
-  check_elastic_steps<MohrCoulomb>(sand, .8, 1e-4);
-  check_dilation<MohrCoulomb>(sand, .6);
-  check_gap<MohrCoulombStiffening>(stiffened, .6, 1e-3);
-  check_elastic_steps<MohrCoulombStiffening>(stiffened, .8, 1e-2);
-  check_dilation<MohrCoulombStiffening>(stiffened, .6);
-  double karlsruhe[9];
-  for (int i = 0; i < 9; ++i)
-    karlsruhe[i] = HypoplasticSand::entries[i].entry.value;
-  check_gap<HypoplasticSand>(karlsruhe, .75, 1e-6);
+  check_elastic_steps(sand, .8);
+  check_dilation(sand, .6);
+  using Hypoplastic = HypoplasticIntergranular;
+  double defaults[n_entries<Hypoplastic>];
+  for (int i = 0; i < n_entries<Hypoplastic>; ++i)
+    defaults[i] = Hypoplastic::entries[i].entry.value;
+  check_gap<Hypoplastic>(defaults, .75, 1e-6);
   check_cells(1.);
   check_cells(0.);
 }

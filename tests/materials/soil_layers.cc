@@ -152,7 +152,7 @@ void
 check_relative_density()
 {
   const Ground g("subsection Layer 1\n"
-                 "set Law = hypoplastic sand\n"
+                 "set Law = hypoplastic sand with intergranular strain\n"
                  "set Relative density = 0.9 - 0.05*d\n"
                  "set Minimum void ratio = 0.6\nset Maximum void ratio = 0.9\n"
                  "set Solid density = 2650\nend\n");
@@ -191,63 +191,53 @@ check_given_stress()
           1e-12);
 }
 
-/** What shearing leaves of the cohesion, and the tension that goes with it. */
+/** The tension that soil bears: its cut-off, or the apex of the cone. */
 void
-check_cohesion_and_tension()
+check_tension()
 {
-  const Ground softening("subsection Layer 1\n"
-                         "set Law = Mohr-Coulomb with softening\n"
-                         "set Cohesion = 5e3\nset Residual cohesion = 1e3\n"
-                         "set Softening shape factor = 10\n"
-                         "set Tension cut-off = 2e3\nend\n"),
-    sand("subsection Layer 1\nset Law = hypoplastic sand\nend\n"),
-    clay("subsection Layer 1\nset Friction angle = 0\nset Cohesion = 5e3\n"
-         "set Tension cut-off = 2e4\nend\n");
-  const auto &m = softening.soil.material(0);
-  std::printf("cohesion %g, %g and %g Pa\n",
-              m.cohesion_after(0.),
-              m.cohesion_after(std::log(2.) / 10.),
-              m.cohesion_after(10.));
-  std::printf("tension %g and %g Pa\n", m.tension_of(5e3), m.tension_of(1e3));
-  std::printf("of sand %g and %g, of clay %g Pa\n",
-              sand.soil.material(0).cohesion_after(0.),
-              sand.soil.material(0).tension_of(0.),
-              clay.soil.material(0).tension_of(5e3));
+  for (const std::string entries :
+       {"Cohesion = 5e3\nset Tension cut-off = 2e3",
+        "Cohesion = 1e3\nset Tension cut-off = 2e3",
+        "Friction angle = 0\nset Cohesion = 5e3\nset Tension cut-off = 2e4",
+        "Law = hypoplastic sand with intergranular strain"})
+    std::printf("tension %g Pa\n",
+                Ground("subsection Layer 1\nset " + entries + "\nend\n")
+                  .soil.material(0)
+                  .tension());
 }
 
 void
 check_refusals()
 {
-  for (const std::string layer :
-       {"set Porosity = 0.55 - 0.1*d",
-        "set Porosity = 0.4 - 1e-6*s",
-        "set Relative density = 0.5",
-        "set Relative density = 1.2\nset Minimum void ratio = 0.1\n"
-        "set Maximum void ratio = 0.9\nset Solid density = 1e-3",
-        "set Friction angle = 30 - 4*d\nset Dilatancy angle = 10",
-        "set Cohesion = 1e3*log(d - 5)",
-        "set Cohesion = 1e3*(d",
-        "set Cohesion = 1e3*(2 + r)",
-        "set Relative density = 0.5\nset Maximum void ratio = 0.9",
-        "set Overconsolidation ratio = 1 + 100e3/s",
-        "set K0 = 0.4 + 1e-6*p",
-        // at 10 m, below 88.29 kPa: 1 -+ 2 c / 88.29 kPa
-        "set Friction angle = 0\nset Cohesion = 5e3\nset K0 = 0.5",
-        // 1/3 - 2 c / sqrt(3) / 88.29 kPa, and 3 + 2 c sqrt(3) / 88.29 kPa
-        "set Cohesion = 100\nset K0 = 0.1",
-        "set Cohesion = 100\nset K0 = 3.1",
-        "set Law = Mohr-Coulomb with softening\nset K0 = 0.2",
-        "set Law = Mohr-Coulomb with stiffness by stress\nset K0 = 0.2",
-        "set Law = Mohr-Coulomb by density and stress\n"
-        "set Relative density = 0.6\nset Minimum void ratio = 0.5\n"
-        "set Maximum void ratio = 0.9\nset K0 = 0.1",
-        "set Law = NGI-ADP\nset Active strength = 2e4\nset K0 = 0.3",
-        "set Law = modified Cam clay\nset Void ratio = 1\nset K0 = 0.2",
-        "set Law = NorSand\nset Void ratio = 0.7\nset K0 = 0.1",
-        "set Law = hypoplastic sand\nset Void ratio = 0.6\nset K0 = 0.1",
-        // below 2 c / (1 - K0) it stands, where strength grows with depth
-        "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.45",
-        "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.51"})
+  for (
+    const std::string layer :
+    {"set Porosity = 0.55 - 0.1*d",
+     "set Porosity = 0.4 - 1e-6*s",
+     "set Relative density = 0.5",
+     "set Relative density = 1.2\nset Minimum void ratio = 0.1\n"
+     "set Maximum void ratio = 0.9\nset Solid density = 1e-3",
+     "set Friction angle = 30 - 4*d\nset Dilatancy angle = 10",
+     "set Cohesion = 1e3*log(d - 5)",
+     "set Cohesion = 1e3*(d",
+     "set Cohesion = 1e3*(2 + r)",
+     "set Relative density = 0.5\nset Maximum void ratio = 0.9",
+     "set Overconsolidation ratio = 1 + 100e3/s",
+     "set K0 = 0.4 + 1e-6*p",
+     // at 10 m, below 88.29 kPa: 1 -+ 2 c / 88.29 kPa
+     "set Friction angle = 0\nset Cohesion = 5e3\nset K0 = 0.5",
+     // 1/3 - 2 c / sqrt(3) / 88.29 kPa, and 3 + 2 c sqrt(3) / 88.29 kPa
+     "set Cohesion = 100\nset K0 = 0.1",
+     "set Cohesion = 100\nset K0 = 3.1",
+     "set Law = Mohr-Coulomb by density and stress\n"
+     "set Relative density = 0.6\nset Minimum void ratio = 0.5\n"
+     "set Maximum void ratio = 0.9\nset K0 = 0.1",
+     "set Law = NGI-ADP\nset Active strength = 2e4\nset K0 = 0.3",
+     "set Law = modified Cam clay\nset Void ratio = 1\nset K0 = 0.2",
+     "set Law = NorSand\nset Void ratio = 0.7\nset K0 = 0.1",
+     "set Law = hypoplastic sand with intergranular strain\nset Void ratio = 0.6\nset K0 = 0.1",
+     // below 2 c / (1 - K0) it stands, where strength grows with depth
+     "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.45",
+     "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.51"})
     try
       {
         const Ground g("subsection Layer 1\n" + layer + "\nend\n");
@@ -288,7 +278,7 @@ main(int, char **)
   check_stiffness_by_stress();
   check_relative_density();
   check_given_stress();
-  check_cohesion_and_tension();
+  check_tension();
   check_refusals();
   check_given_stresses();
   return 0;

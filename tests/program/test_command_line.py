@@ -150,9 +150,9 @@ class Options(ProgramTest):
                     self.assertIn(words, said)
         self.assertFalse(path.exists(), "nothing was written")
         said = self.run_program(
-            SUCCESS, scene("jack_softening"), "--validate", "--strict"
+            SUCCESS, scene("jack_cohesion"), "--validate", "--strict"
         )
-        self.assertIn("warning: Soil/Layer 1: softening needs", said)
+        self.assertIn("warning: Soil/Layer 1: Mohr-Coulomb sand with", said)
 
     def test_a_run_keeps_its_warnings(self) -> None:
         """--validate, the terminal and run.json have the same ones."""
@@ -162,9 +162,9 @@ class Options(ProgramTest):
         }
         path = self.directory()
         first = self.run_scene(
-            "jack_softening", path, SUCCESS, "--validate", entries=entries
+            "jack_cohesion", path, SUCCESS, "--validate", entries=entries
         )
-        said = self.run_scene("jack_softening", path, entries=entries)
+        said = self.run_scene("jack_cohesion", path, entries=entries)
         found = re.findall("^warning: (.*)$", first, re.M)
         self.assertEqual(len(found), 2, first)
         for warning in found:

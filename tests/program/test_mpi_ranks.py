@@ -27,7 +27,6 @@ HALVED: Entries = {
     "Grid/Refinement levels": 2,
     "Grid/Refinement levels along wall": 1,
     "Material points/Split and merge": "true",
-    "Soil/Layer 1/Internal length": 0.004,
 }
 DIFFERENCES_OF_WORKS = ("gravity_work_J", "energy_residual_J")
 

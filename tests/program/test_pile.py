@@ -64,15 +64,13 @@ class SoilAndWalls(ProgramTest):
         self.run_scene("jack", path, SUCCESS, entries=more)
         return history(path)
 
-    def test_void_ratio_dry_density_and_coefficient(self) -> None:
-        """They give the forces of porosity, solid density and angle."""
-        walls = ("tip", "inner wall", "outer wall")
+    def test_void_ratio_and_dry_density(self) -> None:
+        """They give the forces of porosity and solid density."""
         usual = self.rows(
             "usual",
             {
                 f"{LAYER}/Porosity": 0.375,
                 f"{LAYER}/Solid density": 2560,
-                **{f"{BODY}/Friction angle of the {s}": 45 for s in walls},
             },
         )
         other = self.rows(
@@ -80,7 +78,6 @@ class SoilAndWalls(ProgramTest):
             {
                 f"{LAYER}/Void ratio": 0.6,
                 f"{LAYER}/Dry density": 1600,
-                **{f"{BODY}/Friction coefficient of the {s}": 1 for s in walls},
             },
         )
         for a, b in zip(usual, other):
@@ -109,14 +106,11 @@ class SoilAndWalls(ProgramTest):
                 f"{LAYER}/Dry density": 1.6,
                 f"{LAYER}/Solid density": 2600,
                 "Soil/Submerged": "false",
-                f"{BODY}/Friction angle of the tip": 10,
-                f"{BODY}/Friction coefficient of the tip": 0.1,
             },
         )
         for words in (
             "Void ratio is set",
             "Dry density is set",
-            "Friction coefficient of the tip is set",
             "Dry density = 1.6 kg/m3 makes a solid density of 2.56 kg/m3",
             "t/m3",
         ):

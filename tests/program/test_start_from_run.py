@@ -273,8 +273,8 @@ class Installation(ProgramTest):
         self.refused(["rested", "Moving zone"], entries={INSTALLATION: before})
 
     def test_validate(self) -> None:
-        """Friction may differ, whichever entry sets it."""
-        wall = {"Rigid body/Friction coefficient of the inner wall": 0.3}
+        """Friction may differ."""
+        wall = {"Rigid body/Friction angle of the inner wall": 17}
         entries = {INSTALLATION: self.installation(), DEPTH: 0.7, **wall}
         text = self.run_program(SUCCESS, scene("jack"), "--validate", entries=entries)
         self.assertIn("is valid", text)

@@ -350,6 +350,16 @@ class Lowered(ProgramTest):
         self.assertAlmostEqual(depths[-1], depths[1], delta=2e-3)
         self.assertAlmostEqual(depths[-1], 0.505, delta=1e-3)
 
+    def test_velocity(self) -> None:
+        """It sinks as fast as it may while the soil bears little."""
+        path = self.directory()
+        entries = {"Rigid body/Lowering velocity": 4e-3, "Time/End time": 0.8}
+        entries["Output/Record interval"] = 0.1
+        self.run_scene("lowered", path, entries=entries)
+        a, b = history(path)[-2:]
+        way = b["penetration_m"] - a["penetration_m"]
+        self.assertAlmostEqual(way / (b["time_s"] - a["time_s"]), 4e-3, delta=1e-5)
+
     def test_suction_begins_at_rest(self) -> None:
         path = self.directory()
         entries = {

@@ -467,16 +467,6 @@ class Files(SuggestTest):
                 self.assertIn(why, said)
                 self.assertEqual(list(path.iterdir()), [])
 
-    def test_other_laws_of_mohr_coulomb(self) -> None:
-        """They get what Mohr-Coulomb soil is assumed to have."""
-        path = self.made_directory() / "own.prm"
-        law = "Mohr-Coulomb with stiffness by stress"
-        said = self.suggest(path, layers=(f"0: Law = {law}, {SAND[3:]}",))
-        self.assert_without_doubt(said)
-        entries = read_parameters([str(path)])
-        self.assertEqual(entries["Soil/Layer 1/Law"], law)
-        self.assertEqual(entries["Soil/Layer 1/Solid density"], "2650")
-
     def test_angle_is_enough(self) -> None:
         """The modulus of sand grows with its angle, as with its density."""
         moduli = []

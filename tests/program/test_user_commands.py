@@ -16,7 +16,6 @@ from caisson.paths import PROGRAM
 from caisson.results import Results
 from caisson.runner import query, environment, size_in
 
-BY_STRESS = "0: Law = Mohr-Coulomb with stiffness by stress, Friction angle = 33"
 SCALING = "Time/Mass scaling"
 NO_FRAMES = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 
@@ -215,8 +214,7 @@ class Suggest(CommandTest):
         scaling instead of it is warned of, and a larger one where the stiffness of all
         soil grows with its stress."""
         path = self.made_directory()
-        soft = f"{BY_STRESS}, Youngs modulus = 20e6"
-        stiff = soft.replace(" with stiffness by stress", "")
+        soft, stiff = "0: Dr = 60%", "0: Friction angle = 33, Youngs modulus = 20e6"
         self.assertNotIn("warning", "".join(self.suggest(path / "soft.prm", soft)))
         text = (path / "soft.prm").read_text(encoding="utf-8")
         self.assertRegex(text, r"Inertia tolerance *= 0.8\b")
@@ -230,13 +228,16 @@ class Suggest(CommandTest):
         self.suggest(path / "stiff.prm", stiff)
         self.assertIn("above 100", self.said(path / "stiff.prm", 400))
         # a layer below the end of the run does not count, one above it does
+        section = r"(?s)  subsection Layer 1\n(.*?)\n  end\n"
+        layer = re.search(section, text)
+        other = re.search(section, (path / "stiff.prm").read_text(encoding="utf-8"))
+        assert layer is not None and other is not None
         for top, warns in (20, False), (4, True):
             below = path / f"below_{top}.prm"
-            layer = re.search(r"(?s)  subsection Layer 1\n(.*?)\n  end\n", text)
-            assert layer is not None
-            other = layer[1].replace(" with stiffness by stress", "")
-            other = f"  subsection Layer 2\n    set Top depth = {top}\n{other}\n  end\n"
-            more = text.replace(layer[0], layer[0] + other)
+            second = (
+                f"  subsection Layer 2\n    set Top depth = {top}\n{other[1]}\n  end\n"
+            )
+            more = text.replace(layer[0], layer[0] + second)
             below.write_text(
                 re.sub(r"(Number of layers *=) 1", r"\1 2", more), encoding="utf-8"
             )

@@ -321,7 +321,7 @@ class States(UserMaterialTest):
             "pointwise statev_5 : exp(-0.02) : 1e-4",
         ]
         self.run_scene(
-            "oedometer_stiffening",
+            "oedometer_density",
             self.directory(),
             entries={**entries, "Verification/Checks": "; ".join(checks)},
         )

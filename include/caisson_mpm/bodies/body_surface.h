@@ -8,7 +8,6 @@
 #include <caisson_mpm/base/section.h>
 
 #include <array>
-#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -40,32 +39,18 @@ namespace CaissonMPM
   public:
     BodySurface();
 
-    /**
-     * Report which friction angles a coefficient leaves without effect, and the
-     * entries of surfaces that the body does not have.
-     */
+    /** Report the entries of surfaces that the body does not have. */
     void
     name_unused_surfaces(ParameterOrigins &origins,
                          const BodyShape  &shape) const;
-
-    /** Whether a coefficient sets the friction of a surface, not an angle. */
-    bool
-    has_coefficient(const Surface surface) const
-    {
-      return coefficient[surface].has_value();
-    }
-
-    /** The entry that sets the friction of a surface, with its section. */
-    std::string
-    friction_entry(const Surface surface) const;
 
     /** The tangent of the friction angle. */
     double
     friction_coefficient(const Surface surface) const;
 
     /** Contact friction angles by surface. Units: degrees. */
-    std::array<double, n_surfaces>
-    friction_angles() const;
+    std::array<double, n_surfaces> friction_angle = {
+      {20., 20., 20., 20., 20., 20.}};
 
     /** Contact adhesion by surface. Units: Pa. */
     std::array<double, n_surfaces> adhesion = {};
@@ -73,12 +58,6 @@ namespace CaissonMPM
     /** Whether at the edges of the body each face has a velocity of its own
      * (operators/contact_corners.h); else soil moves into neither face. */
     bool splits_corners = true;
-
-  private:
-    std::array<double, n_surfaces> friction_angle = {
-      {20., 20., 20., 20., 20., 20.}};
-    // instead of the angles, where they are set
-    std::array<std::optional<double>, n_surfaces> coefficient;
   };
 } // namespace CaissonMPM
 

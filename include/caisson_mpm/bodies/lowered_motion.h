@@ -41,7 +41,7 @@ namespace CaissonMPM
     move(const double dt, const double force) override;
 
   private:
-    double largest_velocity = 0.1, delay = 0.02;
+    double largest_velocity = 0.1;
   };
 } // namespace CaissonMPM
 

@@ -54,16 +54,15 @@ namespace CaissonMPM
     enum class Zone : unsigned char
     {
       moving,
-      compressing,
-      upper
+      compressing
     };
 
-    static constexpr unsigned int n_zones = 3;
-    /** "moving", "compressing" or "upper". */
+    static constexpr unsigned int n_zones = 2;
+    /** "moving" or "compressing". */
     static const char *
     name_of(const Zone zone)
     {
-      constexpr const char *names[n_zones] = {"moving", "compressing", "upper"};
+      constexpr const char *names[n_zones] = {"moving", "compressing"};
       return names[static_cast<unsigned int>(zone)];
     }
 
@@ -262,12 +261,6 @@ namespace CaissonMPM
       axisymmetric,
       plane_strain
     };
-    /** What the mesh above the body does. */
-    enum class UpperZone
-    {
-      free,     // moves with the body
-      extending // stretches up to a fixed top
-    };
 
     void
     declare_domain();
@@ -421,10 +414,10 @@ namespace CaissonMPM
     check_travel_up() const;
     void
     check_expansion() const;
-    /** Return the lower line of the flattest row above the body, or below the
-     * moving zone; n_rows() if there is none. */
+    /** Return the lower line of the flattest row below the moving zone;
+     * n_rows() if there is none. */
     unsigned int
-    flattest_row_at(const double travel, const bool above_body) const;
+    flattest_row_at(const double travel) const;
     double
     height_of_row(const unsigned int row, const double travel) const;
     /** Return the lines that keep a row apart from others, if it lies between
@@ -471,7 +464,6 @@ namespace CaissonMPM
     std::optional<double> growth;    // or auto
     std::optional<double> fine_size; // or auto
     double                zone_below_tip = 1.5;
-    UpperZone             upper_zone     = UpperZone::free;
     double                smallest_row   = 0.01;
     double                distortion     = 0.;
     double                refinement     = 1.;

@@ -144,8 +144,7 @@ namespace CaissonMPM
                                 work_per_volume(s.old, stress, s.step));
                   return;
                 }
-              if (!Law::needs_void_ratio(parameters) &&
-                  material.overstress_time == 0.)
+              if (!Law::needs_void_ratio(parameters))
                 return waiting.add(b, s, p, material, u.in_group);
             }
         sums.add_work(p,
@@ -156,8 +155,6 @@ namespace CaissonMPM
                                          lane,
                                          s,
                                          {material.initial_void_ratio,
-                                          material.overstress_time /
-                                            u.settings.time_step,
                                           material.stress_measure,
                                           parameters}));
       }

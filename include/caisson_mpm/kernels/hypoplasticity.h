@@ -70,9 +70,8 @@ namespace CaissonMPM
           double shift;
 
           /** Of the intergranular strain: R, m_R, m_T, beta_r, chi, and |h| / R
-           * at the start. A law without one has m_R = 1. */
-          double range = 1., reversed = 1., turned = 1., evolution = 1.,
-                 decay = 1., start = 0.;
+           * at the start. */
+          double range, reversed, turned, evolution, decay, start;
 
           double sin_phi, a;
 
@@ -164,7 +163,56 @@ namespace CaissonMPM
             "larger by this, p_t, and parts under a larger tension.",
             100.,
             1.,
-            1e5}}};
+            1e5}},
+          {&Parameters::range,
+           {"Elastic range of strain",
+            "",
+            "The intergranular strain has the length R at most; sand is "
+            "nearly elastic for strains that are small beside it.",
+            1e-4,
+            1e-7,
+            1e-2}},
+          {&Parameters::reversed,
+           {"Stiffness factor of reversals",
+            "",
+            "The stiffness after a reversal of the strain, and of sand at "
+            "rest, is m_R times that of the linear part of the law.",
+            5.,
+            1.,
+            100.}},
+          {&Parameters::turned,
+           {"Stiffness factor of turns",
+            "",
+            "The stiffness after a turn of the strain path by 90 degrees is "
+            "m_T times that of the linear part of the law.",
+            2.,
+            1.,
+            100.}},
+          {&Parameters::evolution,
+           {"Evolution exponent",
+            "",
+            "The intergranular strain approaches its largest length with the "
+            "exponent beta_r.",
+            0.5,
+            0.01,
+            10.}},
+          {&Parameters::decay,
+           {"Stiffness decay exponent",
+            "",
+            "The additional stiffness decays with the power chi of the "
+            "intergranular strain.",
+            6.,
+            0.1,
+            100.}},
+          {&Parameters::start,
+           {"Intergranular strain at the start",
+            "",
+            "At the start the intergranular strain is this share of R, in "
+            "vertical compression: 0 for sand long at rest, 1 for sand just "
+            "laid down.",
+            0.,
+            0.,
+            1.}}};
 
         static bool
         check(const Parameters &, const LawContext &, LawMessage &);
@@ -260,7 +308,7 @@ namespace CaissonMPM
          * A bound of the stiffness rho c^2 of plane waves: for directions n
          * and m, m.(dT/dD : m n).n is at most f_b f_e / tr(S S) (F^2 + a^2 s^2
          * + f_d a F |2 s - 1/3|) with s the principal value of S that makes it
-         * largest. An intergranular strain makes the first two terms up to
+         * largest. The intergranular strain makes the first two terms up to
          * m_R times as large, and turns the strain, so that s is |S| there.
          */
         template <typename Number>
@@ -373,6 +421,11 @@ namespace CaissonMPM
                             LawMessage       &message)
       {
         const double e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
+        if (p.turned > p.reversed)
+          return message.refuse("Stiffness factor of turns = %g exceeds "
+                                "Stiffness factor of reversals = %g. Lower it.",
+                                p.turned,
+                                p.reversed);
         if (!(e_d < e_c && e_c < e_i))
           return message.refuse(
             "Densest void ratio = %g, Critical void ratio = %g and Loosest "
@@ -495,9 +548,7 @@ namespace CaissonMPM
           max(.5 * (f.s.rr + f.s.zz) + sqrt(half * half + f.s.rz * f.s.rz),
               f.s.tt);
         const Number linear =
-          p.reversed > 1. ?
-            p.reversed * (f.F * f.F + p.a * p.a * product(f.s, f.s)) :
-            f.F * f.F + p.a * p.a * s * s;
+          p.reversed * (f.F * f.F + p.a * p.a * product(f.s, f.s));
         return f.scale * (linear + f.f_d * p.a * f.F * (2. * s - 1. / 3.));
       }
     } // namespace CAISSON_KERNEL_ISA

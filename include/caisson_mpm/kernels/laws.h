@@ -7,18 +7,14 @@
 #define caisson_mpm_kernels_laws_h
 
 #include <caisson_mpm/kernels/for_each_block.h>
-#include <caisson_mpm/kernels/hypoplastic.h>
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/kernels/modified_cam_clay.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
-#include <caisson_mpm/kernels/mohr_coulomb_softening.h>
-#include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
 #include <caisson_mpm/kernels/ngi_adp.h>
 #include <caisson_mpm/kernels/nor_sand.h>
-#include <caisson_mpm/kernels/overstress.h>
 #include <caisson_mpm/kernels/user_material.h>
 
 namespace CaissonMPM
@@ -34,9 +30,6 @@ namespace CaissonMPM
       /** All laws, in the order of the manual. */
       using Laws = LawList<LinearElastic,
                            MohrCoulomb,
-                           MohrCoulombSoftening,
-                           HypoplasticSand,
-                           MohrCoulombStiffening,
                            HypoplasticIntergranular,
                            MohrCoulombDensity,
                            ModifiedCamClay,
@@ -93,7 +86,6 @@ namespace CaissonMPM
         material.is_frictionless = Law::is_frictionless(parameters);
         material.has_loosest_state =
           Law::has_loosest_state && Law::needs_void_ratio(parameters);
-        material.overstress_time = 0.;
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
       }
 
@@ -105,7 +97,6 @@ namespace CaissonMPM
         const char *name;
         int         n_entries;
         bool        stiffness_varies;
-        bool        has_yield_surface;
         bool        has_yield_stress;
 
         const Entry &(*entry)(const int i);
@@ -135,7 +126,6 @@ namespace CaissonMPM
         return {Law::name,
                 n_entries<Law>,
                 Law::stiffness_varies,
-                Law::has_yield_surface,
                 Law::has_yield_stress,
                 &entry_of<Law>,
                 &set_values<Law>};

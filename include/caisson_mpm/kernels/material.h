@@ -45,7 +45,6 @@ namespace CaissonMPM
       StressMeasure stress_measure    = StressMeasure::cauchy;
       double        initial_void_ratio;
       double        initial_density; // of the scaled mass, kg/m3
-      double        overstress_time; // kernels/overstress.h; 0: none (s)
       alignas(16) unsigned char parameters[384];
     };
   } // namespace Kernels

@@ -49,35 +49,8 @@ namespace CaissonMPM
         Entry               entry;
       };
 
-      /** A table of entries, with the size of an array. */
-      template <typename Parameters, int n>
-      struct LawEntries
-      {
-        LawEntry<Parameters> entries[n];
-
-        constexpr const LawEntry<Parameters> &
-        operator[](const int i) const
-        {
-          return entries[i];
-        }
-      };
-
       template <typename Law>
       constexpr int n_entries = sizeof(Law::entries) / sizeof(Law::entries[0]);
-
-      /** The entries of another law, and more. */
-      template <typename Parameters, typename Entries, int n_more>
-      constexpr auto
-      joined(const Entries &first, const LawEntry<Parameters> (&more)[n_more])
-      {
-        constexpr int                      n = sizeof(first) / sizeof(first[0]);
-        LawEntries<Parameters, n + n_more> result{};
-        for (int i = 0; i < n; ++i)
-          result.entries[i] = {first[i].value, first[i].entry};
-        for (int i = 0; i < n_more; ++i)
-          result.entries[n + i] = more[i];
-        return result;
-      }
 
       /** The parameters of a law for values in the order of its entries. */
       template <typename Law>
@@ -171,29 +144,21 @@ namespace CaissonMPM
           0.3,
           0.,
           0.4999};
-        constexpr Entry friction_angle = {
-          "Friction angle",
-          "degrees",
-          "The effective friction angle phi is the peak value where the law "
-          "softens.",
-          30.,
-          0.,
-          60.};
+        constexpr Entry friction_angle  = {"Friction angle",
+                                           "degrees",
+                                           "The effective friction angle phi.",
+                                           30.,
+                                           0.,
+                                           60.};
         constexpr Entry dilatancy_angle = {
           "Dilatancy angle",
           "degrees",
-          "The dilatancy angle psi, at most phi, is the peak value where the "
-          "law softens.",
+          "The dilatancy angle psi, at most phi.",
           0.,
           0.,
           60.};
-        constexpr Entry cohesion = {
-          "Cohesion",
-          "Pa",
-          "The effective cohesion c is the peak value where the law softens.",
-          0.,
-          0.,
-          no_limit};
+        constexpr Entry cohesion =
+          {"Cohesion", "Pa", "The effective cohesion c.", 0., 0., no_limit};
         constexpr Entry largest_void_ratio = {
           "Largest void ratio",
           "",
@@ -272,10 +237,6 @@ namespace CaissonMPM
 
         /** Has no update(), but is called point by point: user_points.h. */
         static constexpr bool is_external = false;
-
-        /** May have an Internal length: overstress.h. The parameters then have
-         * the constants lambda and mu. */
-        static constexpr bool has_yield_surface = false;
 
         /** How many of LawState::variable are in use, and whether the first
          * four turn with the soil. */

@@ -14,33 +14,19 @@ namespace CaissonMPM
   {
     inline namespace CAISSON_KERNEL_ISA
     {
-      /** What the laws of Mohr-Coulomb ask for. */
-      struct MohrCoulombEntries : Elasticity
-      {
-        double friction_angle, dilatancy_angle = 0.; // degrees
-        double cohesion = 0., tension_cutoff = 0.;   // Pa
-      };
-
-      constexpr LawEntry<MohrCoulombEntries> mohr_coulomb_entries[] = {
-        {&MohrCoulombEntries::youngs_modulus, Entries::youngs_modulus},
-        {&MohrCoulombEntries::poisson_ratio, Entries::poisson_ratio},
-        {&MohrCoulombEntries::friction_angle, Entries::friction_angle},
-        {&MohrCoulombEntries::dilatancy_angle, Entries::dilatancy_angle},
-        {&MohrCoulombEntries::cohesion, Entries::cohesion},
-        {&MohrCoulombEntries::tension_cutoff, Entries::tension_cutoff}};
-
       /** The law "Mohr-Coulomb": perfect plasticity, whose strength all points
        * of a material share. See the head of the file. */
       struct MohrCoulomb : ElasticLaw
       {
-        static constexpr const char *name              = "Mohr-Coulomb";
-        static constexpr bool        uses_void_ratio   = true;
-        static constexpr bool        has_yield_surface = true;
-        static constexpr bool        has_loosest_state = true;
+        static constexpr const char *name            = "Mohr-Coulomb";
+        static constexpr bool        uses_void_ratio = true, //
+          has_loosest_state                          = true;
 
-        struct Parameters : MohrCoulombEntries
+        struct Parameters : Elasticity
         {
-          double largest_void_ratio = no_limit; // of dilation
+          double friction_angle, dilatancy_angle = 0.; // degrees
+          double cohesion = 0., tension_cutoff = 0.;   // Pa
+          double largest_void_ratio = no_limit;        // of dilation
           MohrCoulombStrength<double> strength;
 
           void
@@ -58,10 +44,14 @@ namespace CaissonMPM
           }
         };
 
-        static constexpr auto entries =
-          joined<Parameters>(mohr_coulomb_entries,
-                             {{&Parameters::largest_void_ratio,
-                               Entries::largest_void_ratio}});
+        static constexpr LawEntry<Parameters> entries[] = {
+          {&Parameters::youngs_modulus, Entries::youngs_modulus},
+          {&Parameters::poisson_ratio, Entries::poisson_ratio},
+          {&Parameters::friction_angle, Entries::friction_angle},
+          {&Parameters::dilatancy_angle, Entries::dilatancy_angle},
+          {&Parameters::cohesion, Entries::cohesion},
+          {&Parameters::tension_cutoff, Entries::tension_cutoff},
+          {&Parameters::largest_void_ratio, Entries::largest_void_ratio}};
 
         static VolumeInShear
         volume_in_shear(const Parameters &p)
@@ -106,19 +96,46 @@ namespace CaissonMPM
                    const Number               volume_of_solids,
                    const Parameters          &p)
         {
-          return is_loosest(compression(sigma, p), volume, volume_of_solids, p);
+          return volume * (Number(1.) + compression(sigma, p)) >
+                 Number(at_loosest * (1. + p.largest_void_ratio)) *
+                   volume_of_solids;
         }
 
+        /** Whether the angles fit together, and the loosest state is looser
+         * than that at the start. */
         static bool
-        check(const Parameters &, const LawContext &, LawMessage &);
-
-        /** Whether the loosest state is looser than that at the start, where
-         * this is the elastic compression. */
-        static bool
-        check_loosest_state(const Parameters &p,
-                            const double      compression,
-                            const LawContext &context,
-                            LawMessage       &message);
+        check(const Parameters &p,
+              const LawContext &context,
+              LawMessage       &message)
+        {
+          const double psi      = p.dilatancy_angle,
+                       unloaded = (1. + context.void_ratio) *
+                                    (1. + context.mean_stress / p.bulk) -
+                                  1.;
+          if (psi > 0. && p.largest_void_ratio <= context.void_ratio)
+            return message.refuse(
+              "Largest void ratio = %g does not exceed the void ratio %g at the "
+              "start, so that soil with Dilatancy angle = %g degrees cannot "
+              "dilate. Raise it, or set the dilatancy angle to 0.",
+              p.largest_void_ratio,
+              context.void_ratio,
+              psi);
+          if (psi > 0. && p.largest_void_ratio <= unloaded)
+            return message.refuse(
+              "Largest void ratio = %g: soil with the void ratio %g below a "
+              "mean stress of %g Pa at the start would have %g, unloaded. "
+              "Raise it, or set the dilatancy angle to 0.",
+              p.largest_void_ratio,
+              context.void_ratio,
+              context.mean_stress,
+              unloaded);
+          return psi <= p.friction_angle ||
+                 message.refuse("Dilatancy angle = %g exceeds Friction angle = "
+                                "%g degrees: plastic flow would create energy. "
+                                "Lower the dilatancy angle.",
+                                psi,
+                                p.friction_angle);
+        }
 
         static const char *
         warning(const Parameters &p)
@@ -193,18 +210,6 @@ namespace CaissonMPM
           return max(pressure(s) * Number(1. / p.bulk), Number(0.));
         }
 
-        template <typename Number>
-        [[gnu::always_inline]] static inline typename Number::Mask
-        is_loosest(const Number      compression,
-                   const Number      volume,
-                   const Number      volume_of_solids,
-                   const Parameters &p)
-        {
-          return volume * (Number(1.) + compression) >
-                 Number(at_loosest * (1. + p.largest_void_ratio)) *
-                   volume_of_solids;
-        }
-
         /** The void ratio after a strain. */
         template <typename Number>
         [[gnu::always_inline]] static inline Number
@@ -268,60 +273,6 @@ namespace CaissonMPM
               p.tension_cutoff));
         }
       };
-
-      /** What check() of a law with these two angles (degrees) looks at. */
-      inline bool
-      check_dilatancy(const double friction,
-                      const double dilatancy,
-                      LawMessage  &message)
-      {
-        return dilatancy <= friction ||
-               message.refuse(
-                 "Dilatancy angle = %g exceeds Friction angle = %g degrees: "
-                 "plastic flow would create energy. Lower the dilatancy angle.",
-                 dilatancy,
-                 friction);
-      }
-
-      inline bool
-      MohrCoulomb::check(const Parameters &p,
-                         const LawContext &context,
-                         LawMessage       &message)
-      {
-        if (p.dilatancy_angle > 0. &&
-            p.largest_void_ratio <= context.void_ratio)
-          return message.refuse(
-            "Largest void ratio = %g does not exceed the void ratio %g at the "
-            "start, so that soil with Dilatancy angle = %g degrees cannot "
-            "dilate. Raise it, or set the dilatancy angle to 0.",
-            p.largest_void_ratio,
-            context.void_ratio,
-            p.dilatancy_angle);
-        return check_loosest_state(p,
-                                   context.mean_stress / p.bulk,
-                                   context,
-                                   message) &&
-               check_dilatancy(p.friction_angle, p.dilatancy_angle, message);
-      }
-
-      inline bool
-      MohrCoulomb::check_loosest_state(const Parameters &p,
-                                       const double      compression,
-                                       const LawContext &context,
-                                       LawMessage       &message)
-      {
-        const double unloaded =
-          (1. + context.void_ratio) * (1. + compression) - 1.;
-        return p.dilatancy_angle == 0. || p.largest_void_ratio > unloaded ||
-               message.refuse(
-                 "Largest void ratio = %g: soil with the void ratio %g below a "
-                 "mean stress of %g Pa at the start would have %g, unloaded. "
-                 "Raise it, or set the dilatancy angle to 0.",
-                 p.largest_void_ratio,
-                 context.void_ratio,
-                 context.mean_stress,
-                 unloaded);
-      }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels
 } // namespace CaissonMPM

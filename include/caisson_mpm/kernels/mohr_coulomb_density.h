@@ -13,14 +13,17 @@
 // e_c = e_max - (e_max - e_min) / (Q - ln(max(p, p_s) / kPa)). Looser sand has
 // the strength of that state, and shears at constant volume.
 //
-// Young's modulus is that of mohr_coulomb_stiffening.h, and follows the density
-// too if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
+// Young's modulus is that of stiffness_by_stress.h, and follows the density too
+// if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
 //
 //   E = E_ref (max(p, p_min) / p_ref)^m F(e) / F(e_r),
 //   F = (2.17 - e)^2 / (1 + e).
 //
 // The step is explicit in stiffness and strength, which are those of the start
-// of the step. A point that is looser than e_max has a gap.
+// of the step. A return to the yield surface depends on the ratios of the
+// elastic constants only, so that it is that of mohr_coulomb_return.h with
+// E_ref for a strain that is E / E_ref times as large; only the plastic strain
+// must be scaled back. A point that is looser than e_max has a gap.
 //
 // References:
 //   M.D. Bolton (1986), The strength and dilatancy of sands. Geotechnique 36,
@@ -32,7 +35,8 @@
 #ifndef caisson_mpm_kernels_mohr_coulomb_density_h
 #define caisson_mpm_kernels_mohr_coulomb_density_h
 
-#include <caisson_mpm/kernels/mohr_coulomb_stiffening.h>
+#include <caisson_mpm/kernels/mohr_coulomb.h>
+#include <caisson_mpm/kernels/stiffness_by_stress.h>
 
 namespace CaissonMPM
 {
@@ -50,8 +54,9 @@ namespace CaissonMPM
         static constexpr bool uses_void_ratio = true, stiffness_varies = true,
                               has_loosest_state = true;
 
-        /** Those of the critical state: the largest void ratio is e_max. */
-        struct Parameters : MohrCoulombStiffening::Parameters
+        /** Those of the critical state, with the elasticity at the reference
+         * stress: the largest void ratio is e_max. */
+        struct Parameters : MohrCoulomb::Parameters, StiffnessByStress
         {
           double minimum_void_ratio, bolton_q, degrees_per_index; // entries
           double smallest_stress, reference_void_ratio;           // entries
@@ -66,7 +71,8 @@ namespace CaissonMPM
           void
           derive()
           {
-            MohrCoulombStiffening::Parameters::derive();
+            MohrCoulomb::Parameters::derive();
+            StiffnessByStress::derive();
             constexpr double ln_kPa = 6.907755278982137; // ln 1000
             const double     e_max  = largest_void_ratio,
                          range      = e_max - minimum_void_ratio;

@@ -14,7 +14,6 @@
 #include <caisson_mpm/kernels/laws.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/moments.h>
-#include <caisson_mpm/kernels/overstress.h>
 
 namespace CaissonMPM
 {
@@ -278,7 +277,6 @@ namespace CaissonMPM
       struct MaterialOf
       {
         double                          initial_void_ratio;
-        double                          overstress_steps; // 0: none
         StressMeasure                   stress_measure;
         const typename Law::Parameters &parameters;
       };
@@ -432,19 +430,7 @@ namespace CaissonMPM
             stress = scaled(Number(1.) / growth, stress);
             strain = scaled(Number(1.) / after, strain);
           }
-        if constexpr (Law::has_yield_surface)
-          {
-            if (material.overstress_steps > 0.)
-              update_with_overstress<Law>(stress,
-                                          strain,
-                                          state,
-                                          material.parameters,
-                                          material.overstress_steps);
-            else
-              Law::update(stress, strain, state, material.parameters);
-          }
-        else
-          Law::update(stress, strain, state, material.parameters);
+        Law::update(stress, strain, state, material.parameters);
         if (kirchhoff)
           scale_plastic_strain(after, before, state);
       }

@@ -99,8 +99,6 @@ namespace CaissonMPM
     void
     declare_earth_pressure();
     void
-    declare_internal_length();
-    void
     declare_permeability();
     void
     declare_user_material();

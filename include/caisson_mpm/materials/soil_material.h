@@ -51,9 +51,6 @@ namespace CaissonMPM
     UmatStiffness            umat_stiffness; // at the start
     Kernels::VolumeInShear   volume_in_shear = Kernels::VolumeInShear::by_state;
 
-    double internal_length   = 0.;  // m
-    double internal_velocity = 0.1; // m/s
-
     /** "Soil/Layer k", with k from 1. */
     std::string
     section() const;
@@ -129,14 +126,9 @@ namespace CaissonMPM
     bool
     has_undrained_strength() const;
 
-    /** Return the cohesion after some plastic shear, see LawState; 0 where the
-     * law has none. Units: Pa. */
+    /** Return the tension that the soil bears. Units: Pa. */
     double
-    cohesion_after(const double plastic_deviatoric) const;
-
-    /** Return the tension that the soil bears with a cohesion. Units: Pa. */
-    double
-    tension_of(const double cohesion) const;
+    tension() const;
 
     /** The ratio of horizontal to vertical stress of the law itself. */
     double

@@ -137,7 +137,7 @@ namespace CaissonMPM
     bool
     integrates_at_points() const
     {
-      return full_fraction == never_full && full_fraction_inside == never_full;
+      return full_fraction == never_full;
     }
 
     static constexpr double never_full = 2.; // fraction of a cell
@@ -148,7 +148,6 @@ namespace CaissonMPM
     std::optional<double>  flip_fraction; // else by the scene
     double                 flip_fraction_of_scene = 0.95;
     double                 full_fraction          = 0.9;
-    double                 full_fraction_inside   = 0.4;
     bool                   mean_volume            = true;
     double                 stress_filter          = 0.01;
     bool                   minimum_nodal_mass     = true;

@@ -80,7 +80,6 @@ namespace CaissonMPM
     }
 
     Control                                control = Control::automatic;
-    double                                 delay = 0.02, pump_delay = 0.1; // s
     std::optional<double>                  largest;           // of the pump, Pa
     double                                 gas = 0.;          // at p_0, m3
     std::vector<std::pair<double, double>> table;             // s, Pa

@@ -14,7 +14,6 @@ from caisson.design import expression, quantity
 from caisson.design.ground import porosity_of
 
 MOHR_COULOMB = "Mohr-Coulomb"
-BY_STRESS = "Mohr-Coulomb with stiffness by stress"
 # what soil of a law of Mohr-Coulomb has where nothing is given
 ASSUMED = {
     "Law": MOHR_COULOMB,
@@ -130,7 +129,7 @@ Change = Callable[[float, dict[str, str]], Given]  # top of a layer (m) and its 
 
 def law_named(text: str) -> str:
     """Return a law by its name, in which case, spaces and hyphens do not matter."""
-    every = (MOHR_COULOMB, BY_STRESS, *LAWS, *sand.LAWS.values())
+    every = (MOHR_COULOMB, *LAWS, *sand.LAWS.values())
     plain = {re.sub(r"[\W_]", "", name).lower(): name for name in every}
     return plain.get(re.sub(r"[\W_]", "", text).lower(), text)
 

@@ -33,9 +33,8 @@ from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
 SENTENCES = Path(__file__).with_name("theory.jinja")
-# The laws whose strength is one friction angle; run.json names the law of a layer.
-LAWS = ("Mohr-Coulomb", "Mohr-Coulomb with stiffness by stress")
-SOFTENING = "Mohr-Coulomb with softening"
+# The law whose strength is one friction angle; run.json names the law of a layer.
+MOHR_COULOMB = "Mohr-Coulomb"
 ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
@@ -90,7 +89,7 @@ def sand_of(entry: Scene, number: int) -> Sand:
     NotApplicable."""
     density, angle = entry.get("relative_density"), entry.get("friction_angle_deg")
     if density is None and (entry.get("law") in BY_DENSITY or not angle):
-        law = entry.get("law", LAWS[0])
+        law = entry.get("law", MOHR_COULOMB)
         raise NotApplicable(f"layer {number} is {law}, and run.json has no density")
     weight = float(entry["submerged_unit_weight_N_m3"])
     k0 = entry.get("K0")
@@ -121,8 +120,8 @@ def layers_of(site: Site, deepest: float) -> list[Layer]:
 def layer_of(entry: Scene, number: int) -> Layer:
     """Return a layer of run.json. Raises NotApplicable where the theory, which is
     made for sand without cohesion and with one friction angle, does not know it."""
-    law = entry.get("law", LAWS[0])
-    if law not in (*LAWS, *BY_DENSITY):
+    law = entry.get("law", MOHR_COULOMB)
+    if law not in (MOHR_COULOMB, *BY_DENSITY):
         raise NotApplicable(f"layer {number} is {law}")
     if not entry.get("friction_angle_deg"):
         raise NotApplicable(f"layer {number} has no friction angle")
@@ -178,10 +177,10 @@ def wall_friction(scene: Scene, side: str) -> float:
 
 def soil_of(entry: Scene, number: int) -> str:
     """Return whether a layer is sand or clay. Raises NotApplicable."""
-    law = entry.get("law", LAWS[0])
+    law = entry.get("law", MOHR_COULOMB)
     if law in BY_DENSITY:
         return "sand"
-    if law not in (*LAWS, SOFTENING, ANISOTROPIC):
+    if law not in (MOHR_COULOMB, ANISOTROPIC):
         raise NotApplicable(f"layer {number} is {law}, neither sand nor clay")
     frictional = (entry.get("friction_angle_deg") or 0) > 0
     cohesive = (entry.get("cohesion_Pa") or 0) > 0
