@@ -57,7 +57,12 @@ class Functions(ProgramTest):
         """From the sizes of a caisson to the page on its run. The log has its own
         test, python/tests/test_log.py."""
         write_scene, write_page = caisson.suggest_scene, caisson.write_report
-        sizes = {"diameter": 4, "skirt": 2.5, "wall": "400mm", "error": 20}
+        sizes: dict[str, Any] = {
+            "diameter": 4,
+            "skirt": 2.5,
+            "wall": "400mm",
+            "error": 20,
+        }
         with contextlib.chdir(self.made_directory()):
             scene = write_scene("own.prm", sand="dense", penetration=1, **sizes)
             bar = caisson.error_bar(scene, "10h", list=True)
