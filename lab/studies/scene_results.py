@@ -72,7 +72,6 @@ OTHERS = {
     "tutorial_tension.md": 6,
     "how_to/after_installation.md": 1,
     "how_to/cpt.md": 6,
-    "how_to/ground.md": 1,
     "how_to/own_caisson.md": 6,
     "how_to/restart.md": 1,
     "how_to/results.md": 1,
