@@ -198,6 +198,8 @@ class MeshError(unittest.TestCase):
             runs = 100 + sign * np.array([[16.0], [8.0]])
             found = mesh_error(self.SIZES[:2], runs, 1, is_force)
             np.testing.assert_allclose(found.limit, 100 + sign * 4)
+            of_coarser = mesh_error(self.SIZES[:2], runs, 0, is_force)
+            np.testing.assert_allclose(of_coarser.limit, found.limit)
             np.testing.assert_allclose([found.below[0], found.above[0]], sides)
             self.assertTrue(np.isnan(found.order).all())
 
