@@ -4,8 +4,8 @@ method, one at a time.
 
 Draws one picture per study, error against processor time of one core, and prints
 the cheapest run for each error in ASKED. Runs with a uniform mass scaling, the default
-until 2026-11, are gray. The limit of the default on its meshes, which are then similar,
-is a point of its own. Keys of a study beside the usual ones:
+until 2026-11, are gray. The best estimate from its meshes, which are similar, is
+a point of its own. Keys of a study beside the usual ones:
 
     measure   what the relative error is of
     check     as before the first colon in Verification/Checks of the scene; or
@@ -65,8 +65,8 @@ def error_of(study: Study, run: StudyRun) -> float | None:
 
 
 def extrapolated(study: Study, found: Found) -> tuple[float, float] | None:
-    """Return processor time (s) and relative error of the limit of the default on all
-    its meshes, None where there are less than two or no forces."""
+    """Return processor time (s) and relative error of the best estimate from all
+    meshes, None where there are less than two or no forces."""
     runs = [(run, s) for run, s, _ in found if run.variant == DEFAULT]
     if "check" in study.keys or len(runs) < 2:
         return None
@@ -104,7 +104,7 @@ def draw(study: Study, found: Found, options: Options) -> None:
         axes.loglog(*zip(*shown), label=name, **style)
     if point := extrapolated(study, found):
         style = dict(color="black", ls="", marker="*", ms=13, mfc="white", zorder=6)
-        axes.loglog(*point, label="limit of the default", **style)
+        axes.loglog(*point, label="best estimate", **style)
     axes.set_xlabel("processor time on one core (s)")
     axes.set_ylabel(f"relative error: {study.keys['measure']}")
     axes.set_title(study.title, fontsize=10)
