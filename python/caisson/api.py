@@ -14,6 +14,8 @@ import os
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+
 from caisson import disk, error_bounds
 from caisson import ranks as cores
 from caisson.__main__ import COMMANDS
@@ -50,9 +52,13 @@ def options_of(
     name = f"caisson.{command.replace('-', '_')}"
     parser = Strict(prog=name, add_help=False, allow_abbrev=False)
     importlib.import_module(COMMANDS[command][0]).add_arguments(parser)
+    for place in places:
+        if not isinstance(place, (str, os.PathLike)):
+            raise InputError(f"{name}: {place!r} is no path of a file or directory")
     words = list(map(str, places))
     for key, value in given.items():
         option = f"--{key.replace('_', '-')}"
+        value = value.tolist() if hasattr(value, "tolist") else value
         for x in value if isinstance(value, (list, tuple)) else [value]:
             if x is not None and x is not False:
                 words.append(option if x is True else f"{option}={x}")
@@ -155,6 +161,8 @@ def write_report(directory: str | Path, rate: float | None = None) -> Path:
     """
     from caisson.report import write
 
+    if rate is not None and not (isinstance(rate, (int, float)) and 0 < rate < np.inf):
+        raise InputError(f"rate is {rate!r}: give m/h above 0")
     return write(Path(directory), rate)
 
 

@@ -26,6 +26,7 @@ RUN: dict[str, Any] = {
     **dict.fromkeys(("peak_memory_bytes", "max_points_in_body"), NUMBER),
     "mass_scaling": [NUMBER],
     "results": RESULTS,
+    "tip": {"interface_depths_m": [NUMBER], ANY: NUMBER},
     "scene": {
         "end_reason": str,
         "infeasible": {"penetration_m": NUMBER, "reason": str},

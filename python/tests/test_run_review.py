@@ -21,12 +21,17 @@ CUT_OFF: list[dict[str, Any]] = [
 ]
 
 
+def tip(*interfaces: float) -> dict[str, Any]:
+    """Return the tip of run.json above interfaces at these depths (m)."""
+    sizes = {"width_m": WALL, "initial_penetration_m": 0.5}
+    radii = {"inner_radius_m": 2.9, "outer_radius_m": 3.0}
+    return {**sizes, **radii, "interface_depths_m": list(interfaces)}
+
+
 def soil(**change: Any) -> dict[str, Any]:
     """Return the scene of run.json, with changes."""
     scene = {
-        "tip_width_m": WALL,
-        "inner_radius_m": 2.9,
-        "outer_radius_m": 3.0,
+        "wall_thickness_m": WALL,
         "initial_penetration_m": 0.5,
         "inner_wall_adhesion_Pa": 0.0,
         "outer_wall_adhesion_Pa": 2e3,
@@ -66,6 +71,7 @@ class RunReview(unittest.TestCase):
             "energies": {"external_work_J": 1e6, "numerical_dissipation_J": 2e4},
             "results": {"warnings": [{"rank": "input", "text": "coarse"}]},
             "scene": soil(),
+            "tip": tip(),
         }
         text = json.dumps({**known, **change})
         (self.path / "run.json").write_text(text, encoding="utf-8")
@@ -101,11 +107,9 @@ class RunReview(unittest.TestCase):
         """Another layer, a suction that begins, and a slower body."""
         table = self.fallen(0.2, WALL / 4)
         for top, is_warned in ((2.7, False), (3.0, True)):
-            layers = [*LAYERS, {**LAYERS[0], "layer": 2, "top_depth_m": top}]
-            text = self.words(table, scene=soil(layers=layers))
+            text = self.words(table, tip=tip(top))
             self.assertEqual("falls" in text, is_warned, top)
-        slice_of_layer = [*LAYERS, {**LAYERS[0], "top_depth_m": 2.0}]
-        self.assertIn("falls", self.words(table, scene=soil(layers=slice_of_layer)))
+        self.assertIn("falls", self.words(table, scene={}))  # of a pile
         suction = np.where(table["penetration_m"] > 2, 1e4, 0.0)
         self.assertEqual(self.words({**table, "suction_Pa": suction}), "")
         table = self.fallen(0.2, 1e-3)
@@ -161,6 +165,24 @@ class RunReview(unittest.TestCase):
         work = table["external_work_J"]
         text = self.words({**table, "kinetic_energy_J": 0.02 * work})
         self.assertIn("is 2 % of the work of the body at a penetration of 3.5 m", text)
+
+    def test_damaged_numbers(self) -> None:
+        """What is no number takes no part, and is no fault of the program."""
+        table = self.fallen(0.1, WALL / 4)
+        table["kinetic_energy_J"] = np.where(table["time_s"] > 9, np.nan, 0.0)
+        energies = {"external_work_J": None, "numerical_dissipation_J": 1.0}
+        text = self.words(table, energies=energies)
+        self.assertRegex(text, "^the tip force falls[^\n]*$")
+        share = run_review.kinetic_share_of(self.run_of(table))
+        assert share is not None
+        self.assertEqual(share.share, 0)
+
+    def test_earlier_version(self) -> None:
+        """Its run.json has warnings of its own, and no tip."""
+        run = self.run_of(self.fallen(0.1, WALL / 4))
+        del run.summary["tip"]
+        self.assertEqual(run_review.review_of(run), ())
+        self.assertIsNotNone(run_review.kinetic_share_of(run))
 
     def test_waves_of_the_start(self) -> None:
         """Those of 60 and 2 % do not count once they are gone."""

@@ -78,9 +78,10 @@ namespace CaissonMPM
                   return before.is_set(own + name);
                 }))
               continue;
+            const std::string value = entry.value(); // not in a subsection
             prm.enter_subsection("Soil");
             prm.enter_subsection("Layer " + to_text(layer));
-            prm.set(entry.name, entry.value());
+            prm.set(entry.name, value);
             prm.leave_subsection();
             prm.leave_subsection();
             origins.record(own + entry.name,

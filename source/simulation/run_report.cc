@@ -235,6 +235,24 @@ namespace CaissonMPM
       return members;
     }
 
+    /** What a review of the records needs of a body that is pushed in. */
+    Json
+    about_tip(const RecordedParts &parts)
+    {
+      const BodyShape &shape = parts.body.shape();
+      if (shape.width_of_tip() == 0.)
+        return Json::object();
+      Json depths = Json::array();
+      for (const double z : parts.soil.interfaces())
+        depths.push_back(-z);
+      return {{"tip",
+               {{"width_m", shape.width_of_tip()},
+                {"initial_penetration_m", shape.initial_depth()},
+                {"inner_radius_m", shape.left()},
+                {"outer_radius_m", shape.right()},
+                {"interface_depths_m", depths}}}};
+    }
+
     /** The lengths and angles that pictures show. */
     Json
     about_scene(const RecordedParts &parts)
@@ -242,13 +260,9 @@ namespace CaissonMPM
       Json members = object_of(parts.body.shape().dimensions());
       if (members.empty())
         return members;
-      const BodyShape &shape  = parts.body.shape();
-      const auto      &angles = parts.body.surface().friction_angle;
+      const auto &angles = parts.body.surface().friction_angle;
       append(members,
-             {{"tip_width_m", shape.width_of_tip()},
-              {"inner_radius_m", shape.left()},
-              {"outer_radius_m", shape.right()},
-              {"inner_wall_friction_angle_deg", angles[inner_wall]},
+             {{"inner_wall_friction_angle_deg", angles[inner_wall]},
               {"outer_wall_friction_angle_deg", angles[outer_wall]}});
       const auto &adhesion = parts.body.surface().adhesion;
       append(members,
@@ -329,6 +343,7 @@ namespace CaissonMPM
            {{"energies", object_of(energies(parts.energy))},
             {"sections", object_of(parts.timer.seconds())},
             {"scene", about_scene(parts)}});
+    members.update(about_tip(parts));
     if (parts.grid.is_first_rank())
       write_atomically(path, text_of(members));
   }

@@ -81,7 +81,7 @@ class Options(ProgramTest):
         self.assertIn("set Friction angle", section)
         self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
         for word, words in (
-            ("cam clay", ["set Law =", "modified Cam clay"]),
+            ("cam clay", ["set Law =", "NGI-ADP"]),
             ("NorSand", ["set Law ="]),
             ("tension", ["See also Water/Suction control.", "Tension cut-off ="]),
             ("sealed", ["set Suction control ="]),

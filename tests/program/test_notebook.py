@@ -70,6 +70,15 @@ class Functions(ProgramTest):
             run = caisson.run(scene, {"Time/End time": 0.1}, output_directory="own")
             self.assertEqual(write_page("own", rate=2), Path("own/report.html"))
             self.assertTrue((run.directory / "verdict.json").is_file())
+            nothing: Any = None
+            rates: list[Any] = [0, float("nan"), "fast"]
+            for rate in rates:
+                with self.assertRaisesRegex(caisson.InputError, "m/h above 0"):
+                    write_page("own", rate=rate)
+            with self.assertRaisesRegex(caisson.InputError, "None is no path"):
+                write_scene(nothing, **sizes)
+            with self.assertRaisesRegex(caisson.InputError, "is a file: name a dir"):
+                caisson.cpt(ROOT / "prm/cpt_example.csv", "own.prm")
             with self.assertRaisesRegex(caisson.InputError, "own.prm exists"):
                 write_scene("own.prm", sand="dense", **sizes)
             with self.assertRaisesRegex(caisson.InputError, "did you mean --weight"):

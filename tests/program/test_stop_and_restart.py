@@ -135,7 +135,7 @@ class Stop(ProgramTest):
                 self.run_scene(name, path, SUCCESS, "--restart", entries=entries)
                 self.assert_same_results(whole, path)
         warnings = " ".join(summary(path)["warnings"])
-        self.assert_words(["exit gradient exceeds", "kinetic energy"], warnings)
+        self.assertIn("exit gradient exceeds", warnings)
 
     def test_lost_rows(self) -> None:
         """A restart is refused where history.csv has lost rows since the checkpoint,

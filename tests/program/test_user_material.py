@@ -383,7 +383,6 @@ class Input(UserMaterialTest):
             ("Material name", 81 * "x", ["Material name", "80 characters"]),
             ("Properties", "5e6, much", ["5e6, much", "list of numbers"]),
             ("State at the start", "1, 2", ["has 2 numbers", "State variables = 0"]),
-            ("Internal length", 0.01, ["Internal length", "user material"]),
             ("Stress measure", "Kirchhoff", ["Stress measure", "user material"]),
         ):
             with self.subTest(entry=entry, value=value):

@@ -76,6 +76,8 @@ def write(
 ) -> list[Path]:
     """Write table and picture into a directory; return the files. tip: the depth to
     which a skirt goes (m); location: of the test, in a file of several."""
+    if directory.exists() and not directory.is_dir():
+        raise InputError(f"--out {directory} is a file: name a directory")
     directory.mkdir(parents=True, exist_ok=True)
     title = f"Cone test {found.name} {printable(location)}".rstrip()
     return [

@@ -28,6 +28,7 @@ LEAST_OF_ADHESION, ADHESION_FROM = 0.9, 3.0
 # contain.
 LARGEST_LOST, LARGEST_LOST_UNDRAINED = 0.03, 0.1
 LARGEST_KINETIC = 0.01  # of the work, in a run whose forces are those of slow motion
+WORK = {"external_work_J", "kinetic_energy_J", "total_force_N"}
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 
 
@@ -57,10 +58,11 @@ def kinetic_share(history: Table, start: float) -> KineticShare | None:
         counts = (force < 0) & (work > LEAST_WORK_OF_PULL * work.max())
     else:
         counts = depth >= start
-    rows = np.flatnonzero(counts & (work > 0))
+    kinetic = history["kinetic_energy_J"]
+    rows = np.flatnonzero(counts & (work > 0) & np.isfinite(kinetic))
     if not len(rows):
         return None
-    shares = np.maximum(history["kinetic_energy_J"][rows], 0) / work[rows]
+    shares = np.maximum(kinetic[rows], 0) / work[rows]
     decayed = np.flatnonzero(shares <= LARGEST_KINETIC)
     first = decayed[0] if len(decayed) else len(rows) - 1
     worst = first + int(np.argmax(shares[first:]))
@@ -72,22 +74,26 @@ def percent(share: float) -> str:
     return f"{float(digits(100 * share, 2)):g} %"
 
 
-def tip_width(run: Results) -> float:
-    """Return the width of the tip (m); 0 where it is not known, or there is none."""
-    return float(run.scene.get("tip_width_m", 0.0))
+def tip_of(run: Results) -> dict[str, Any]:
+    """Return what run.json has of the tip; empty without one. Earlier versions have it
+    of a caisson alone, as the thickness of its wall."""
+    names = "wall_thickness_m", "initial_penetration_m"
+    wall, first = (run.scene.get(name) for name in names)
+    earlier = {"width_m": wall, "initial_penetration_m": first or 0.0} if wall else {}
+    return run.known.get("tip") or earlier
 
 
-def start_of(run: Results) -> float:
+def start_of(tip: dict[str, Any]) -> float:
     """Return the penetration (m) from which forces are not those of the start."""
-    first = float(run.scene.get("initial_penetration_m", 0.0))
-    return first + START_TAKES * tip_width(run)
+    return float(tip["initial_penetration_m"] + START_TAKES * tip["width_m"])
 
 
 def kinetic_share_of(run: Results) -> KineticShare | None:
     """Return the share of a run; None without a body that has a tip."""
-    if not tip_width(run) or "external_work_J" not in run.history:
+    tip = tip_of(run)
+    if not tip or not WORK <= set(run.history):
         return None
-    return kinetic_share(run.history, start_of(run))
+    return kinetic_share(run.history, start_of(tip))
 
 
 def way_down(history: Table, length: float) -> Table:
@@ -123,7 +129,8 @@ class Review:
 
     def __init__(self, run: Results) -> None:
         self.run = run
-        self.width = tip_width(run)
+        self.tip = tip_of(run)
+        self.width = self.tip["width_m"]
         self.way = way_down(run.history, STRETCH * self.width)
         self.layers: list[dict[str, Any]] = run.scene.get("layers", [])
 
@@ -133,13 +140,6 @@ class Review:
         found = [self.fall_of_tip(), *walls, self.lost_work(), self.fast_soil()]
         return [text for text in found if text]
 
-    def interfaces(self) -> np.ndarray:
-        """Return the depths (m) at which another layer begins: [n]."""
-        pairs = zip(self.layers, self.layers[1:])
-        return np.array(
-            [b["top_depth_m"] for a, b in pairs if a["layer"] != b["layer"]]
-        )
-
     def falls(self) -> Iterator[tuple[float, float]]:
         """Yield by how much the tip force falls over a short way, relative to what it
         was, and where (m), at speeds that agree and without a suction, which unloads
@@ -147,11 +147,10 @@ class Review:
         depth, tip, speed = (
             self.way[name] for name in ("depth", "tip_force_N", "speed")
         )
-        near = np.abs(depth[:, np.newaxis] - self.interfaces()) <= (
-            INTERFACE_TAKES * self.width
-        )
+        away = depth[:, np.newaxis] - np.array(self.tip["interface_depths_m"])
+        near = np.abs(away) <= INTERFACE_TAKES * self.width
         pumps = self.way["suction_Pa"] > 0
-        counts = (depth >= start_of(self.run)) & ~near.any(axis=1) & ~pumps
+        counts = (depth >= start_of(self.tip)) & ~near.any(axis=1) & ~pumps
         firsts = np.searchsorted(depth, depth - (1 + 1e-6) * SHORT_WAY * self.width)
         for after in np.flatnonzero(counts):
             for before in range(firsts[after], after):
@@ -190,7 +189,7 @@ class Review:
         for layer, top, end in zip(self.layers, tops, [*tops[1:], np.inf]):
             adhesion = layer.get("wall_adhesion_Pa", of_body)
             sums += adhesion * np.maximum(np.minimum(end, depth) - top, 0)
-        radius = self.run.scene[f"{side}_radius_m"]
+        radius = self.tip[f"{side}_radius_m"]
         return np.asarray(2 * np.pi * radius * sums)
 
     def bare_wall(self, side: str) -> str:
@@ -221,7 +220,7 @@ class Review:
         lost = energy.get("numerical_dissipation_J") or 0
         undrained = self.run.entry("Water/Level") in ("undrained", "coupled")
         allowed = LARGEST_LOST_UNDRAINED if undrained else LARGEST_LOST
-        if work <= 0 or lost <= allowed * work:
+        if not (work > 0 and lost > allowed * work):
             return ""
         return (
             "the transfer between points and nodes has lost"
@@ -248,8 +247,9 @@ class Review:
 
 @functools.lru_cache(maxsize=32)
 def review_of(run: Results) -> tuple[str, ...]:
-    """Return what the records of a run that has ended say against it."""
-    if run.is_running or not tip_width(run) or "tip_force_N" not in run.history:
+    """Return what the records of a run that has ended say against it; nothing of one
+    by an earlier version of the program, whose run.json has that itself."""
+    if run.is_running or "tip" not in run.known or "tip_force_N" not in run.history:
         return ()
     return tuple(Review(run).warnings())
 
@@ -259,6 +259,6 @@ def warnings_of(run: Results) -> dict[str, list[str]]:
     by rank: "result", "input" and "cosmetic". Raises ResultsError."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     for warning in (run.known.get("results") or {}).get("warnings", []):
-        found[warning["rank"]].append(warning["text"])
+        found.setdefault(warning["rank"], []).append(warning["text"])
     found["result"] += review_of(run)
     return found
