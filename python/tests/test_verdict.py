@@ -11,8 +11,8 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import evaluation
-from caisson.report import content, page, verdict
-from caisson.verdict import installation, outcome
+from caisson.report import content, verdict
+from caisson.verdict import installation, outcome, run_review
 from caisson.results import Results
 
 PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
@@ -103,7 +103,7 @@ class Verdicts(WithPage):
         """A warning that names a penetration below the end of suction is left out."""
         texts = [f"it rises at a penetration of {h:g} m: soil" for h in (3.2, 4.25)]
         ranked = [{"rank": "result", "text": text} for text in [*texts, "slow"]]
-        found = page.warnings_of(self.run_of(results={"warnings": ranked}), 3.5)
+        found = run_review.warnings_of(self.run_of(results={"warnings": ranked}), 3.5)
         self.assertEqual(found["result"], [texts[0], "slow"])
 
     def test_end_that_the_program_knows(self) -> None:

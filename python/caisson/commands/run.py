@@ -141,8 +141,12 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
         if in_full:
             print(f"plot: {picture}")
     print(f"report: {report.write(directory)}")
-    warnings = [f"warning: {text}" for text in run_review.review_of(run)]
-    lines = [*warnings, *verdict.lines_of(run), band.sentence_of(run)]
+    said = run_review.down_to(verdict.verdict_of(run).end, run_review.review_of(run))
+    lines = [
+        *(f"warning: {text}" for text in said),
+        *verdict.lines_of(run),
+        band.sentence_of(run),
+    ]
     for line in filter(None, lines if in_full else []):
         print(line)
 

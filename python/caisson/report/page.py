@@ -37,7 +37,6 @@ PICTURES = {
     "displacement": "Displacement",
     "void_ratio": "Void ratio",
 }
-AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 CHARTS = ("walls",)  # pictures of lines, not of fields
 
 
@@ -84,18 +83,6 @@ def status_of(run: Results) -> str:
         return say(SENTENCES, "going_on", *how)
     last = float(run.history.get("penetration_m", np.zeros(1)).max())
     return say(SENTENCES, "status", run, last, verdict.verdict_of(run).end)
-
-
-def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:
-    """Return the warnings by their rank, without those about what is deeper than the
-    end of suction (m)."""
-
-    def counts(text: str) -> bool:
-        place = AT_PENETRATION.search(text)
-        return end is None or place is None or float(place[1]) <= end
-
-    found = run_review.warnings_of(run)
-    return {rank: list(filter(counts, texts)) for rank, texts in found.items()}
 
 
 def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any]:
@@ -204,7 +191,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
     return {
         "title": run.summary.get("title"),
         "job": say_rows(SENTENCES, "job", run.summary, layers.use_of(run)),
-        "warnings": warnings_of(run, end),
+        "warnings": run_review.warnings_of(run, end),
         "entries": scene.entries_of(run),
         "defaults": scene.defaults_of(run),
     }

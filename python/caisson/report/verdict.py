@@ -177,7 +177,7 @@ def keep(run: Results) -> str:
         known["feasible_to_m"] = found.end
     if rows := rows_of_limits(run, found.end):
         known["limits"] = rows
-    if warnings := list(run_review.review_of(run)):
+    if warnings := run_review.down_to(found.end, run_review.review_of(run)):
         known["warnings"] = warnings
     if parts := [x.as_json() for x in uncertainty.at_end(band_of(run))]:
         known["uncertainty"] = parts

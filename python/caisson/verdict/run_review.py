@@ -3,7 +3,8 @@
 from which clay has come off, work that the transfer between points and nodes has lost,
 and soil that moves too fast."""
 import functools
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,7 @@ LEAST_OF_ADHESION, ADHESION_FROM = 0.9, 3.0
 LARGEST_LOST, LARGEST_LOST_UNDRAINED = 0.03, 0.1
 LARGEST_KINETIC = 0.01  # of the work, in a run whose forces are those of slow motion
 WORK = {"external_work_J", "kinetic_energy_J", "total_force_N"}
+AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 
 
@@ -245,6 +247,13 @@ class Review:
         )
 
 
+def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
+    """Return the warnings without those about what is deeper than the end of suction
+    (m)."""
+    places = [(AT_PENETRATION.search(text), text) for text in texts]
+    return [t for at, t in places if end is None or at is None or float(at[1]) <= end]
+
+
 @functools.lru_cache(maxsize=32)
 def review_of(run: Results) -> tuple[str, ...]:
     """Return what the records of a run that has ended say against it; nothing of one
@@ -254,11 +263,12 @@ def review_of(run: Results) -> tuple[str, ...]:
     return tuple(Review(run).warnings())
 
 
-def warnings_of(run: Results) -> dict[str, list[str]]:
+def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:
     """Return what the program has warned of, and what the records say against the run,
-    by rank: "result", "input" and "cosmetic". Raises ResultsError."""
+    down to the end of suction (m), by rank: "result", "input" and "cosmetic". Raises
+    ResultsError."""
     found: dict[str, list[str]] = {"result": [], "input": [], "cosmetic": []}
     for warning in (run.known.get("results") or {}).get("warnings", []):
         found.setdefault(warning["rank"], []).append(warning["text"])
     found["result"] += review_of(run)
-    return found
+    return {rank: down_to(end, texts) for rank, texts in found.items()}
