@@ -204,6 +204,17 @@ class Commands(WithFiles):
         self.assertEqual(self.calls().count("Friction_angle_30+"), 1)
         self.assertEqual(len(self.calls()), 4)
 
+    def test_a_resumed_run_keeps_its_ranks(self) -> None:
+        """Those of its checkpoint, whatever the cores allow now."""
+        run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
+        (self.path / "run.json").write_text('{"ranks": 3}', encoding="utf-8")
+        run.restarts = True
+        with mock.patch.object(run, "command", side_effect=RuntimeError) as command:
+            self.assertRaises(RuntimeError, run.execute, None, 1)
+        command.assert_called_once_with(3)
+        (self.path / "run.json").write_text("no list", encoding="utf-8")
+        self.assertIsNone(run.ranks_before)
+
     def jobs_of(self, study: Study) -> int:
         """Return how many runs of a study are made at a time."""
         with contextlib.redirect_stdout(io.StringIO()):
