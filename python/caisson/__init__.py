@@ -10,7 +10,7 @@ For scripts and notebooks (doc/how_to/python.md):
     run = caisson.load("results/own")   # or one that is there
     run.history                         # a pandas.DataFrame; attrs["units"]
     run.frame(penetration=2.5).mesh     # a mesh for VTK and PyVista
-    caisson.write_report("results/own")       # its page
+    caisson.write_report("results/own")  # its page
 
 The functions, with help(caisson.load) and so on:
 

@@ -222,16 +222,6 @@ class Run:
             self.restarts = True
 
     @property
-    def ranks_before(self) -> int | None:
-        """The ranks of the run that has left a checkpoint: with others, the soil
-        beneath a wall may slip to the other side."""
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            text = (self.directory / "run.json").read_text(encoding="utf-8")
-            ranks = json.loads(text).get("ranks")
-            return ranks if isinstance(ranks, int) else None
-        return None
-
-    @property
     def has_checkpoint(self) -> bool:
         """Whether there is a checkpoint, of whatever run."""
         return (self.directory / self.CHECKPOINT).is_file()
@@ -353,8 +343,6 @@ class Run:
         with contextlib.suppress(RunError):  # which the program says in the log
             _ = self.key  # as the input is now, which may change while it runs
         how = ["--restart"] if self.restarts else self.make_room()
-        if self.restarts:
-            ranks = self.ranks_before or ranks
         command = [*self.command(ranks), *how]
         begin = time.monotonic()
         with open(self.directory / "log", "a", encoding="utf-8") as log:

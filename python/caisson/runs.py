@@ -18,7 +18,7 @@ from caisson import disk
 from caisson.needed import DASK, sentence
 from caisson.progress import Progress, span
 from caisson.ranks import Size, cores, plan
-from caisson.results import Results
+from caisson.results import Results, ResultsError
 from caisson.runner import Run, RunError, Status
 
 # runs for each core above which several ranks gain nothing that matters, and the
@@ -103,6 +103,16 @@ class StudyRun:
             return FAILED, self.last_words
         return COMPLETE, ""
 
+    @property
+    def ranks_before(self) -> int | None:
+        """The ranks of the run that has left the checkpoint: with others, the soil
+        beneath a wall may slip to the other side."""
+        try:
+            ranks = self.results.known.get("ranks")
+        except ResultsError:
+            return None
+        return ranks if isinstance(ranks, int) else None
+
     def query_size(self) -> None:
         """Ask the program for its size; without one, refusal says why."""
         try:
@@ -119,6 +129,8 @@ class StudyRun:
         """Run it unless it is complete; return what it cost, "" of one that is."""
         if not again and self.run.is_complete():
             return ""
+        if self.run.restarts:
+            ranks = self.ranks_before or ranks
         try:
             status = self.run.execute(time_limit, ranks)
         except (RunError, OSError) as error:

@@ -336,9 +336,8 @@ class Plan(unittest.TestCase):
 
     def test_failed_run(self) -> None:
         """None begins after it, as the bar needs all of them."""
-        calls = [
-            unittest.mock.Mock(**{"is_complete.return_value": False}) for _ in "abc"
-        ]
+        known = {"is_complete.return_value": False, "restarts": False}
+        calls = [unittest.mock.Mock(**known) for _ in "abc"]
         calls[1].execute.side_effect = RunError("a window ended early")
         runs = [StudyRun("s", "", "", "", 9 - i, {}, c) for i, c in enumerate(calls)]
         for call in calls:

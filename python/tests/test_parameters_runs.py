@@ -209,11 +209,12 @@ class Commands(WithFiles):
         run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
         (self.path / "run.json").write_text('{"ranks": 3}', encoding="utf-8")
         run.restarts = True
+        of_study = runs.StudyRun("s", "", "", "", 0, {}, run)
         with mock.patch.object(run, "command", side_effect=RuntimeError) as command:
-            self.assertRaises(RuntimeError, run.execute, None, 1)
+            self.assertRaises(RuntimeError, of_study.execute, True, None, 1)
         command.assert_called_once_with(3)
         (self.path / "run.json").write_text("no list", encoding="utf-8")
-        self.assertIsNone(run.ranks_before)
+        self.assertIsNone(of_study.ranks_before)
 
     def jobs_of(self, study: Study) -> int:
         """Return how many runs of a study are made at a time."""

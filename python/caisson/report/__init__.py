@@ -5,6 +5,7 @@ page reloads itself, and `caisson run` renews it."""
 import argparse
 import shutil
 import subprocess
+from math import inf
 from pathlib import Path
 
 from caisson import disk, error_bounds
@@ -22,6 +23,9 @@ def write(directory: Path, rate: float | None = None) -> Path:
     from caisson.report import page, verdict
     from caisson.verdict.installation import Rate
 
+    if rate is not None and not (isinstance(rate, (int, float)) and 0 < rate < inf):
+        given = f"{rate:g}" if isinstance(rate, (int, float)) else repr(rate)
+        raise ResultsError(f"--rate {given}: give m/h above 0")
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     error_bounds.adopt(directory)
@@ -98,8 +102,6 @@ def main(options: argparse.Namespace) -> int:
             relief.adopt(options.jacked, directory)
         if options.error_bar is not None:
             error_bounds.adopt(directory, options.error_bar)
-        if options.rate is not None and not options.rate > 0:
-            raise ResultsError(f"--rate {options.rate:g}: give m/h above 0")
         print(f"report: {(path := write(directory, options.rate))}")
         if options.pdf:
             print(f"report: {print_pdf(path)}")
