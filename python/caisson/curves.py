@@ -171,7 +171,7 @@ def round_depths(position: np.ndarray) -> np.ndarray:
     step = 1.0 if span >= 2 else 10.0 ** math.floor(math.log10(span / 2))
     first = math.floor(position.min() / step + 1e-9) + 1
     last = math.floor(position.max() / step + 1e-9)
-    return np.array([i * step for i in range(first, last + 1)])
+    return np.round(step * np.arange(first, last + 1), 9)
 
 
 def path_of(position: np.ndarray) -> np.ndarray:

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What run.json has for scripts, and the columns of history.csv: program.py."""
+import html
 import importlib.util
 import json
+import re
 import unittest
 from typing import Any
 
@@ -21,7 +23,7 @@ from program import (
     user_scene,
 )
 
-from caisson import evaluation
+from caisson import evaluation, report
 from caisson.verdict import limits
 from caisson.verdict import outcome
 
@@ -172,6 +174,68 @@ class Schema(ProgramTest):
         self.assertIn("'grave' is not one of", errors_of(found)[0])
         found["results"] = {"warnings": [], "at_depths": []}
         self.assertTrue(errors_of(found))
+
+
+CELLS = re.compile(r"<t[hd][^>]*>(.*?)</t[hd]>", re.S)
+
+
+def rows_of_page(page: str) -> list[dict[str, str]]:
+    """Return the rows of both tables of the installation by depth, by their heads."""
+    part = page.split("The installation by depth</summary>")[1].split("</details>")[0]
+    found: dict[str, dict[str, str]] = {}
+    for table in part.split("<table")[1:]:
+        plain = [
+            [html.unescape(re.sub("<[^>]*>", "", cell)) for cell in CELLS.findall(row)]
+            for row in table.split("<tr")[1:]
+        ]
+        for row in plain[1:]:
+            found.setdefault(row[0], {}).update(zip(plain[0], row))
+    return list(found.values())
+
+
+class SameNumbers(ProgramTest):
+    """One run says the same number wherever it says it."""
+
+    def assert_near(self, text: str, value: float) -> None:
+        """Ask for a number of three digits at least, before any bracket."""
+        shown = float(text.split(" (")[0])
+        self.assertAlmostEqual(shown, value, delta=5e-3 * abs(value) + 1e-9)
+
+    def test_page_python_and_verdict(self) -> None:
+        """At three depths, of a run that was continued; the page changes nothing."""
+        path = self.directory()
+        words = [user_scene("suction"), "--output-directory", path]
+        first: Entries = {**SMALL, "Time/End penetration": 0.9}
+        self.run_program(SUCCESS, *words, entries=first)
+        said = self.run_program(SUCCESS, *words, "--restart", entries=SMALL)
+        run, kept = Results(path), (path / "run.json").read_bytes()
+        before = outcome.results_of(run)
+        report.write(path)
+        after = outcome.results_of(Results(path))
+        self.assertEqual(before, after)
+        self.assertEqual((path / "run.json").read_bytes(), kept)
+        known = json.loads((path / "verdict.json").read_text(encoding="utf-8"))
+        rows = rows_of_page((path / "report.html").read_text(encoding="utf-8"))
+        limits_there = {row["penetration_m"]: row for row in known["limits"]}
+        self.assertGreaterEqual(len(rows), 3)
+        for row in rows[-3:]:
+            depth = float(row["depth (m)"])
+            table = evaluation.at_depths(run, np.array([depth]))
+            numbers = {name: float(values[0]) for name, values in table.items()}
+            limit = limits_there[depth]
+            self.assert_near(row["resistance (kN)"], 1e-3 * numbers["total_force_N"])
+            self.assert_near(row["tip (kN)"], 1e-3 * numbers["tip_force_N"])
+            suction = max(numbers["required_suction_Pa"], 0.0)
+            self.assertAlmostEqual(limit["required_suction_Pa"], suction, places=3)
+            self.assert_near(row["required suction (kPa)"], 1e-3 * suction)
+            allowable = 1e-3 * limit["allowable_suction_Pa"]
+            self.assert_near(row["allowable (kPa)"], allowable)
+            self.assertEqual(row["governed by"], limit["governed_by"])
+        last = history(path)[-1]
+        shown = re.findall(r"pen +([\d.]+) m .* total +([\d.]+) kN", said)[-1]
+        for text, value in zip(shown, ("penetration_m", "total_force_N")):
+            factor = 1e-3 if value.endswith("_N") else 1.0
+            self.assertAlmostEqual(float(text), factor * last[value], delta=0.06)
 
 
 class Columns(ProgramTest):
