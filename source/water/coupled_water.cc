@@ -174,7 +174,7 @@ namespace CaissonMPM
     p.update_ghost_values();
     projection.begin_with({-suction(), 0.});
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
-      if (suction() > 0. && scene.soil.material(i).has_undrained_strength())
+      if (suction() != 0. && scene.soil.material(i).has_undrained_strength())
         begins_with_field = true;
   }
 
@@ -253,7 +253,7 @@ namespace CaissonMPM
     result.tip_resistance = tip.value();
     result.plug_rate      = plug_rate;
     result.response       = projection.conductance_of_plug();
-    if (suction() > 0. && tip.area() > 0.)
+    if (suction() != 0. && tip.area() > 0.)
       result.pressure_factor = -tip.at_tip() / tip.area() / suction();
     result.n_iterations = projection.solver().n_iterations();
     return result;

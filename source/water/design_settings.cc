@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// python/caisson/plot/limits.py has the names.
+// python/caisson/verdict/limits.py has the names.
 #include <caisson_mpm/water/design_settings.h>
 
 #include <deal.II/base/patterns.h>
@@ -55,6 +55,13 @@ namespace CaissonMPM
        "The report multiplies the heave of the plug by this factor where it "
        "looks for the depth at which the plug meets the lid. No factor is "
        "established.",
+       "",
+       .1},
+      {"Factor on set-up",
+       1.,
+       "The report multiplies the friction of the walls by this factor where "
+       "an overpressure retrieves the caisson: clay regains strength after the "
+       "installation. 1 is a retrieval at once.",
        "",
        .1},
       {"Factor on shell buckling",

@@ -127,7 +127,8 @@ namespace CaissonMPM
                       scene.body.submerged_weight(),
                       plug_.area() + flow.tip_area,
                       seepage_volume + plug_.area() * (motion.travel() +
-                                                       recent_heave.value())});
+                                                       recent_heave.value()),
+                      motion.velocity() < 0.});
   }
 
   void
@@ -244,7 +245,8 @@ namespace CaissonMPM
     if (scene.body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its "
              "skirt";
-    if (is_sealed()) // soil may rest on the lid, and leave it again
+    // soil may rest on the lid, and leave it again
+    if (is_sealed() || scene.body.motion().velocity() < 0.)
       return "";
     // soil that has been piping or lifted is no plug that refuses
     const std::string refusal = feasibility.place() ? "" : " (refusal)";

@@ -12,7 +12,9 @@ namespace CaissonMPM
 {
   namespace
   {
-    // So much more easily the field passes clay in the plug than below it.
+    // So much more easily a suction passes clay in the plug than below it, and
+    // so much less easily an overpressure, which would tear the plug off its
+    // base if it took its stress away.
     constexpr double faster_in_plug = 1e3;
 
     /** Minus the gradient of the excess pressure, per volume. */
@@ -129,7 +131,8 @@ namespace CaissonMPM
     const double renewal = scene.settings.seepage.renewal,
                  moved =
                    std::abs(scene.body.motion().travel() - travel_at_solve);
-    if (!is_solved || moved >= renewal * scene.body.shape().cell_width())
+    if (!is_solved || is_of_overpressure != (suction() < 0.) ||
+        moved >= renewal * scene.body.shape().cell_width())
       return false;
     if (++steps_since_look < Intervals::mudline)
       return true;
@@ -145,9 +148,10 @@ namespace CaissonMPM
   SteadySeepage::solve()
   {
     find_mudline();
+    is_of_overpressure = suction() < 0.;
     find_permeability();
     seepage.solve(mudline, soil_in_cells.permeability, scene.settings.sides);
-    if (!tip_is_in_clay())
+    if (!is_of_overpressure && !tip_is_in_clay())
       fill_clay_of_plug();
     tip.integrate(
       scene.grid,
@@ -180,12 +184,12 @@ namespace CaissonMPM
       }
     if (flows && !tip_is_in_clay())
       return;
-    // let the suction reach all clay in the plug, down to the tip
+    // let a suction reach all clay in the plug, down to the tip
     for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
       if (soil_in_cells.is_clay[cell] && is_in_plug(cell))
         for (double *const k : {&soil_in_cells.permeability[cell].horizontal,
                                 &soil_in_cells.permeability[cell].vertical})
-          *k *= faster_in_plug;
+          *k *= is_of_overpressure ? 1. / faster_in_plug : faster_in_plug;
   }
 
   bool

@@ -106,7 +106,8 @@ namespace CaissonMPM
 
     const bool flows; // according to Water/Level
     Seepage    seepage;
-    double     travel_at_solve = 0.;
+    bool       is_of_overpressure = false; // the field that was solved for
+    double     travel_at_solve    = 0.;
     // of plug, open and unknown nodes; m3/s over the suction in m of water
     double flow_out = 0., flow_in = 0.;
   };

@@ -24,6 +24,7 @@ namespace CaissonMPM
     double area       = 0.; // of the lid, plus that of the tip times the share
                             // of the suction that has reached it; m2
     double volume = 0.;     // of water that has left the caisson so far; m3
+    bool   rises  = false;  // whether the body moves up
   };
 
   /** The sea above the mudline. */
@@ -100,7 +101,8 @@ namespace CaissonMPM
   /**
    * The suction is either given over time, or the one that a body that moves as
    * prescribed requires: with the resistance R, the weight W and the area A,
-   * (R - W)/A, but never negative. The required suction is followed with a
+   * (R - W)/A. It is negative, an overpressure, only while the body moves up, as
+   * R is then negative, too. The required suction is followed with a
    * delay, because suction weakens the soil: at depth, 1 kPa takes several
    * times as much resistance as it loads the lid, and following at once would
    * swing.

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import capacity_in_words, is_pull, is_sealed
+from caisson.evaluation import DEPTH, capacity_in_words, is_pull, is_sealed
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson.template import say, say_rows
 from caisson.verdict.outcome import results_of
+from caisson.verdict.retrieval import retrieval_of
 
 SENTENCES = Path(__file__).with_name("verdict.jinja")
 PULL, WATER = "pull", "water beneath lid and tip"
@@ -35,8 +36,11 @@ def sentence_of(run: Results) -> str:
     """Return the largest pull and what fails in a sentence; nothing without a pull."""
     if not (most := largest_pull(run)):
         return ""
-    how = most.get("mechanism") or capacity_in_words(most)
     weight = run.scene.get("submerged_weight_N")
+    if found := retrieval_of(run):
+        begin = float(run.history[DEPTH].max())
+        return say(SENTENCES, "retrieved", run.shown, found, begin, weight)
+    how = most.get("mechanism") or capacity_in_words(most)
     return say(SENTENCES, "pulled", run.shown, most, how, weight)
 
 

@@ -18,7 +18,7 @@ from caisson.evaluation import DEPTH, sinks_on
 from caisson.report import pull, remedies
 from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
-from caisson.verdict import outcome, run_review, uncertainty
+from caisson.verdict import outcome, retrieval, run_review, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
 from caisson.verdict.limits import COMPUTED, PIPING
@@ -177,6 +177,8 @@ def keep(run: Results) -> str:
         known["feasible_to_m"] = found.end
     if rows := rows_of_limits(run, found.end):
         known["limits"] = rows
+    if retrieved := retrieval.retrieval_of(run):
+        known["retrieval"] = retrieved.rows()
     if warnings := run_review.down_to(found.end, run_review.review_of(run)):
         known["warnings"] = warnings
     if parts := [x.as_json() for x in uncertainty.at_end(band_of(run))]:
