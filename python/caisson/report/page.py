@@ -14,7 +14,7 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson.report import band, content, layers, methods, pull, remedies
+from caisson.report import acceptance, band, content, layers, methods, pull, remedies
 from caisson.report import scene, sketch, verdict
 from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate
@@ -25,7 +25,7 @@ LIMITS = HERE / "limits.jinja"
 MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
     " factors remedies warnings computed tables has_bar has_suction averaged rate"
-    " pictures units methods remarks entries defaults facts".split(),
+    " pictures units methods remarks entries defaults facts acceptance".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -155,7 +155,7 @@ def html(run: Results, rate: Rate) -> str:
     else:
         if (found := outcome.whole_way(run, rate)) is not None:
             found = verdict.feasible_part(run, found, end, rate)
-            known |= of_installation(run, found, end)
+            known |= of_installation(run, found, end, rate)
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
         tables = [part for x in beside["tables"] for part in methods.for_a_page(x)]
@@ -198,7 +198,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
 
 
 def of_installation(
-    run: Results, found: Installation, end: float | None
+    run: Results, found: Installation, end: float | None, rate: Rate
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     planned = scene.end_of(run) or float(found.depth[-1])
@@ -215,5 +215,6 @@ def of_installation(
         "factors": say(LIMITS, "factors", run.shown, sources, rings, tops),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
+        "acceptance": acceptance.tables_of(run, found, rate),
         "tables": installation.tables_of(found),
     }
