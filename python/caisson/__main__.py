@@ -26,8 +26,8 @@ GROUPS: Groups = {
         "plot": ("caisson.plot", "draw the pictures of runs"),
         "report": ("caisson.report", "write an HTML page on each run"),
         "compare": (
-            "caisson.plot.comparison",
-            "draw or print the forces of several runs",
+            "caisson.commands.compare",
+            "draw or print several runs, and what differs between two",
         ),
         "export": ("caisson.export.command", "give the soil to other programs"),
         "log": ("caisson.log", "compare a run with the log of the vessel"),

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from synthetic import write_run
+from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 from caisson import __main__ as program
 from caisson.plot import comparison
@@ -158,6 +159,47 @@ class Files(unittest.TestCase):
         with self.assertRaises(SystemExit):
             with contextlib.redirect_stderr(io.StringIO()):
                 self.compare(short, interval=0)
+
+
+class Differences(WithPage):
+    """`caisson compare` of two runs."""
+
+    def compare(self, *directories: Path) -> str:
+        """Return what it prints."""
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            words = ["compare", "--overwrite", *map(str, directories)]
+            self.assertEqual(program.main(words), 0)
+        return said.getvalue()
+
+    def test_two_runs(self) -> None:
+        """An entry that differs, with its unit, and the verdict that follows; the files
+        are written as ever."""
+        one, other = self.path / "one", self.path / "other"
+        units = {"Rigid body/Submerged weight": "N"}
+        summary = {**SUMMARY, "units": units, "title": "mine"}
+        for path, weight in ((one, "1e6"), (other, "2e6")):
+            entries = {
+                "Rigid body/Submerged weight": weight,
+                "Output/Directory": weight,
+            }
+            scene = {**SCENE, "submerged_weight_N": float(weight)}
+            leave_run(path, {**summary, "entries": entries, "scene": scene})
+        said = self.compare(one, other)
+        self.assertIn("scene: differs in\n  Rigid body/Submerged weight\n", said)
+        self.assertIn("\n    1 MN\n    2 MN\npage: differs in\n  verdict\n", said)
+        self.assertIn("    Feasible to 4.5 m by weight 2 MN", said)
+        self.assertNotIn("Output", said)
+        self.assertNotIn("Pump", said)
+        self.assertTrue((self.path / "comparison_one_other.png").is_file())
+
+    def test_the_same(self) -> None:
+        one, other = self.path / "one", self.path / "other"
+        for path in (one, other):
+            leave_run(path, SUMMARY)
+        self.assertIn("scene: the same\npage: the same\n", self.compare(one, other))
+        third = self.path / "third"
+        leave_run(third, SUMMARY)
+        self.assertNotIn("scene", self.compare(one, other, third))
 
 
 if __name__ == "__main__":

@@ -66,6 +66,7 @@ class Vessel(unittest.TestCase):
             entries = {"Time/End penetration": f"{END:g}"}
             entries["Design/Steel yield strength"] = "1e12"  # water boils first
             entries["Design/Steel Youngs modulus"] = "1e13"
+            entries["Design/Largest tilt"] = "0.5"
             summary = {"title": "made up", "scene": SCENE, "entries": entries}
             history = history_of(BEST * np.exp(change), boiling)
             write_run(self.path / f"own{name}", history, summary)
@@ -271,6 +272,7 @@ class Vessel(unittest.TestCase):
         self.assertRegex(
             criteria, r"allowable one \(water boils\).*rest between 2\.. m"
         )
+        self.assertIn("the tilt reaches 0.5 degrees", criteria)
 
 
 def hidden(rng: np.random.Generator, kind: int) -> np.ndarray:

@@ -92,6 +92,26 @@ namespace CaissonMPM
        0.,
        "Distance between ring stiffeners of the wall, from the lid down, which "
        "bounds the part that may buckle; 0 stands for a wall without rings.",
+       "m"},
+      {"Suction at the start",
+       0.,
+       "The pump begins with this suction, which the seal must bear where the "
+       "caisson rests by its weight. 0 stands for not given.",
+       "Pa"},
+      {"Scour depth",
+       0.,
+       "Scour lowers the mudline by this depth after the installation: the "
+       "report says how much of the embedment counts. 0 stands for not given.",
+       "m"},
+      {"Largest tilt",
+       0.,
+       "Tilt that the caisson may have: the vessel stops there, and the report "
+       "counts it in the gap beneath the lid. 0 stands for not given.",
+       "degrees"},
+      {"Distance of buckets",
+       0.,
+       "Distance between the axes of neighboring buckets, which stand on a "
+       "regular triangle or a square. 0 stands for not given.",
        "m"}};
   } // namespace
 
@@ -106,5 +126,26 @@ namespace CaissonMPM
                     record.unit,
                     record.text,
                     dealii::Patterns::Double(record.least));
+    add_parameter("Number of buckets",
+                  number_of_buckets,
+                  "",
+                  "Buckets as that of the scene, each with its weight, which "
+                  "stand under one rigid frame.",
+                  dealii::Patterns::Selection("1|3|4"));
+    add_parameter("Spread of buckets",
+                  spread_of_buckets,
+                  "",
+                  "By how much the resistance of each bucket may differ from "
+                  "that of the scene, as shares such as 0.1, 0.2, 0.15; one "
+                  "number stands for all. If it is empty, the runs of low and "
+                  "high resistance decide.",
+                  dealii::Patterns::List(dealii::Patterns::Double(0., .9),
+                                         0,
+                                         4));
+    add_parameter("Source of factors",
+                  source_of_factors,
+                  "",
+                  "Document of the project, with its edition, that names the "
+                  "factors given in this section; the report shows it.");
   }
 } // namespace CaissonMPM

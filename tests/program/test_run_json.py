@@ -24,8 +24,7 @@ from program import (
 )
 
 from caisson import evaluation, report
-from caisson.verdict import limits, retrieval
-from caisson.verdict import outcome
+from caisson.verdict import acceptance, limits, outcome, retrieval
 
 SCHEMA = HERE.parent / "doc/how_to/run.schema.json"
 SMALL: Entries = {
@@ -105,7 +104,8 @@ class Schema(ProgramTest):
         # section Design reaches Python, which knows its names
         names = {f"Factor on {x.entry}" for x in limits.LIMITS.values()}
         given = {k for k in found["defaults"] if k.startswith("Design/")}
-        names = {f"Design/{name}" for name in (*names, *limits.STEEL, retrieval.SET_UP)}
+        more = *limits.STEEL, *acceptance.ENTRIES, retrieval.SET_UP
+        names = {f"Design/{name}" for name in (*names, *more)}
         self.assertEqual(given | {"Design/Factor on pump"}, names)
         pump = limits.limits_of(run, np.array([1.2]))[limits.PUMP]
         self.assertAlmostEqual(pump[0], 160)

@@ -14,6 +14,8 @@ from caisson.log.expected import Expected, expected_of
 from caisson.results import Results
 from caisson.table import digits, write_csv
 from caisson.template import say_rows
+from caisson.verdict import acceptance
+from caisson.verdict.installation import Rate, installation_of
 
 PDF, TABLE = "log_sheet.pdf", "log_sheet.csv"
 A4 = (8.27, 11.69)  # inches
@@ -41,7 +43,10 @@ def criteria_of(expected: Expected) -> list[str]:
         ends = (expected.high, expected.low)
         rest = [np.interp(expected.weight, line, expected.depth) for line in ends]
     limit, shown = picture.governing_of(expected), expected.run.shown
-    what = shown, limit, expected.weight, rest, words.of_end(expected)
+    known = installation_of(expected.run, Rate())
+    assert known is not None  # it has a required suction
+    stop = acceptance.stop_of(expected.run, known, expected.planned)
+    what = shown, limit, expected.weight, rest, words.of_end(expected), stop
     found = say_rows(words.SENTENCES, "criteria", *what)
     return [f"  - {text}" if mark == "-" else text for mark, text in found]
 

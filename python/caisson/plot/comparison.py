@@ -1,13 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Several runs beside each other: a picture of the forces that push or pull their
-caissons and, where suction draws them in, of the required suction; and a .csv file
-with all their forces at common depths.
-
-The file has a row for each depth, and a column for each force of each run, as in
-total_force_N [jack]; cells where a run has not been are empty. Where a body goes down
-and up again the way up has columns of its own, total_force_N [jack up]. A value is a
-mean over 0.2 m, as everywhere; see curves.
-"""
+"""Several runs beside each other, in a picture and a .csv file: commands/compare.py
+says what they have."""
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
@@ -62,6 +55,13 @@ def default_picture(directories: Sequence[Path]) -> Path:
     names = "_".join(name.replace("/", "-") for name in names_of(directories))
     folder = directories[0].resolve().parent
     return folder / f"comparison_{names[:LONGEST]}.png"
+
+
+def directories_of(words: list[Path]) -> list[Path]:
+    """Return the directories among the words of the command, without the picture that
+    may stand before them."""
+    is_picture = words[0].suffix in PICTURES and not words[0].is_dir()
+    return words[1:] if is_picture else words
 
 
 def read(directories: Sequence[Path]) -> Histories:
@@ -189,10 +189,8 @@ def main(options: argparse.Namespace) -> int:
     """Draw the picture and write the file, or print."""
     if options.values:
         return key_numbers.print_all(options.words, options.at)
-    picture: Path | None = None
-    directories = options.words
-    if directories[0].suffix in PICTURES and not directories[0].is_dir():
-        picture, directories = directories[0], directories[1:]
+    directories = directories_of(options.words)
+    picture = options.words[0] if directories != options.words else None
     if not directories:
         raise ResultsError("give the output directory of a run")
     histories = read(directories)

@@ -88,12 +88,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--error-bar", type=Path, metavar="CSV", help=text)
     text = "rate of penetration that the pump is made for, in m/h; 1 is assumed"
     add("--rate", type=float, metavar="M/H", help=text)
+    text = "who computed; it stands on each page of paper until the results change"
+    add("--author", metavar="NAME", help=text)
+    add("--checked", metavar="NAME", help="who checked, in the same way")
     add("--pdf", action="store_true", help="print it to report.pdf too")
 
 
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
-    from caisson.report import relief
+    from caisson.report import relief, trace
 
     def write_one(directory: Path) -> None:
         if keep_methods(options, directory):
@@ -102,6 +105,7 @@ def main(options: argparse.Namespace) -> int:
             relief.adopt(options.jacked, directory)
         if options.error_bar is not None:
             error_bounds.adopt(directory, options.error_bar)
+        trace.keep(directory, options.author, options.checked)
         print(f"report: {(path := write(directory, options.rate))}")
         if options.pdf:
             print(f"report: {print_pdf(path)}")

@@ -14,8 +14,8 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results
-from caisson.report import band, content, layers, methods, pull, remedies
-from caisson.report import scene, sketch, verdict
+from caisson.report import acceptance, band, content, layers, methods, pull, remedies
+from caisson.report import scene, sketch, trace, verdict
 from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate
 
@@ -25,7 +25,7 @@ LIMITS = HERE / "limits.jinja"
 MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
     " factors remedies warnings computed tables has_bar has_suction averaged rate"
-    " pictures units methods remarks entries defaults facts".split(),
+    " pictures units methods remarks entries defaults facts acceptance signed".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -66,7 +66,8 @@ def facts_of(run: Results) -> list[list[str]]:
     steps = run.history.get("time_step_s", np.array([run.summary["time_step_s"]]))
     steps = steps[np.isfinite(steps) & (steps > 0)]
     ends = steps.min(), steps.max()
-    return say_rows(SENTENCES, "facts", run, ends, scene.mass_scaling_of(run))
+    how = scene.mass_scaling_of(run), trace.trace_of(run)
+    return say_rows(SENTENCES, "facts", run, ends, *how)
 
 
 def progress_of(run: Results) -> float:
@@ -128,14 +129,23 @@ def css_text(words: str) -> str:
     return "".join(c if c.isalnum() else f"\\{ord(c):x} " for c in words)
 
 
-def render(title: str, figures: list[dict[str, Any]], csv: str, **known: Any) -> str:
-    """Return a page with the cards whose data are known, and without the others."""
+def render(
+    title: str,
+    figures: list[dict[str, Any]],
+    csv: str,
+    footer: str = "",
+    signature: str = "",
+    **known: Any,
+) -> str:
+    """Return a page with the cards whose data are known, and without the others. footer
+    and signature: at the foot of each page of paper; the title without them."""
     name = known.pop("name", title)
     data = json.dumps({"figures": figures, "csv": csv, "name": name}, allow_nan=False)
     return template(HERE / "page.html").render(
         MISSING,
         title=title,
-        footer=css_text(title),
+        footer=css_text(footer or title),
+        signature=css_text(f"{signature} "),
         figures=figures,
         charts=CHARTS,
         style=(HERE / "page.css").read_text(encoding="utf-8"),
@@ -155,7 +165,7 @@ def html(run: Results, rate: Rate) -> str:
     else:
         if (found := outcome.whole_way(run, rate)) is not None:
             found = verdict.feasible_part(run, found, end, rate)
-            known |= of_installation(run, found, end)
+            known |= of_installation(run, found, end, rate)
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
         tables = [part for x in beside["tables"] for part in methods.for_a_page(x)]
@@ -168,8 +178,9 @@ def html(run: Results, rate: Rate) -> str:
         known |= {"progress": progress_of(run), "refresh": REFRESH}
     if run.scene or not run.is_running:
         known |= of_scene(run, end)
+    title = str(known.pop("title", "") or name)
     return render(
-        str(known.pop("title", "") or name),
+        title,
         content.figures_of(run, found, end),
         content.csv_of(run.history),
         name=name,
@@ -182,6 +193,7 @@ def html(run: Results, rate: Rate) -> str:
         pictures=pictures_of(run),
         remarks=content.remarks_on_numbers(run),
         facts=facts_of(run),
+        **trace.foot_of(run, title),
         **known,
     )
 
@@ -198,7 +210,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
 
 
 def of_installation(
-    run: Results, found: Installation, end: float | None
+    run: Results, found: Installation, end: float | None, rate: Rate
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
     planned = scene.end_of(run) or float(found.depth[-1])
@@ -215,5 +227,6 @@ def of_installation(
         "factors": say(LIMITS, "factors", run.shown, sources, rings, tops),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
+        "acceptance": acceptance.tables_of(run, found, rate),
         "tables": installation.tables_of(found),
     }

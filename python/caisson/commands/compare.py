@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Several runs beside each other: a picture of the forces that push or pull their
+caissons and, where suction draws them in, of the required suction; and a .csv file with
+all their forces at common depths. Of two runs it prints what differs in the scene and
+in what their pages say first.
+
+The file has a row for each depth, and a column for each force of each run, as in
+total_force_N [jack]; cells where a run has not been are empty. Where a body goes down
+and up again the way up has columns of its own, total_force_N [jack up]. A value is a
+mean over 0.2 m, as everywhere; see curves.
+"""
+import argparse
+from collections.abc import Iterator
+
+from caisson.plot import comparison
+from caisson.report import scene, trace, verdict
+from caisson.report.band import cards_of, verdict_with
+from caisson.results import Results
+from caisson.verdict import outcome
+from caisson.verdict.installation import Rate
+
+NONE = "none"  # of what one of them does not have
+Words = dict[str, str]  # by the name of an entry or a card
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `caisson compare`."""
+    comparison.add_arguments(parser)
+
+
+def scene_of(run: Results) -> Words:
+    """Return the entries in effect with their units."""
+    units = run.known.get("units", {})
+    entries = trace.entries_of(run).items()
+    return {name: scene.in_units(x, units.get(name, "")) for name, x in entries}
+
+
+def page_of(run: Results) -> Words:
+    """Return what the page of a run says first: its verdict, and its cards."""
+    said = {"verdict": verdict_with(run).text}
+    if (found := outcome.whole_way(run)) is not None:
+        part = outcome.feasible_part(run, found, outcome.depth_of(run))
+        for name, *words in cards_of(run, verdict.cards_of(run, part, Rate())):
+            said[name] = ", ".join(filter(None, words))
+    return {name: text for name, text in said.items() if text}
+
+
+def changes(title: str, one: Words, other: Words) -> Iterator[str]:
+    """Yield in lines what differs, both values below each other."""
+    names = [x for x in {**one, **other} if one.get(x) != other.get(x)]
+    yield f"{title}: {'differs in' if names else 'the same'}"
+    for name in names:
+        yield f"  {name}"
+        yield f"    {one.get(name, NONE)}"
+        yield f"    {other.get(name, NONE)}"
+
+
+def differences(runs: list[Results]) -> Iterator[str]:
+    """Yield in lines what differs between two runs that have left a run.json."""
+    if all(run.known for run in runs):
+        names = comparison.names_of([run.directory for run in runs])
+        yield "of each pair, the upper is {}, the lower {}".format(*names)
+        yield from changes("scene", *map(scene_of, runs))
+        yield from changes("page", *map(page_of, runs))
+
+
+def main(options: argparse.Namespace) -> int:
+    """Compare the runs, and say of two of them what differs."""
+    status = comparison.main(options)
+    directories = comparison.directories_of(options.words)
+    if not options.values and len(directories) == 2:
+        for line in differences([*map(Results, directories)]):
+            print(line)
+    return status

@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a certifier asks of an installation by suction beside its verdict: the seal, the
+grout, a reserve for scour, the levelness of several buckets, the load case of a shell
+model, and when the vessel stops. Each is None where a run does not have it.
+
+Depths are in m, suctions and pressures in kPa, forces in kN. Entries of section Design
+that are 0 or empty are not given.
+"""
+from math import nan
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson.band import BEST, band_of
+from caisson.design import buckets, sealing, shell
+from caisson.design.houlsby_byrne import UNDISTURBED
+from caisson.design.seepage import pressure_factor
+from caisson.evaluation import DEPTH, SUCTION, at_depths
+from caisson.results import Results, Table
+from caisson.verdict import disturbed, limits, suction_methods, theory
+from caisson.verdict.installation import NOTHING, Installation, plug_area
+
+START, SCOUR, TILT = "Suction at the start", "Scour depth", "Largest tilt"
+NUMBER, DISTANCE = "Number of buckets", "Distance of buckets"
+SPREAD, DOCUMENT = "Spread of buckets", "Source of factors"
+ENTRIES = START, SCOUR, TILT, NUMBER, DISTANCE, SPREAD, DOCUMENT  # of section Design
+ROWS = 80  # of a grid of depths
+# shares of the embedment, at which a load is given
+DOWN = {"mudline": 0.0, "1/4": 0.25, "1/2": 0.5, "3/4": 0.75, "tip": 1.0}
+FURTHER = 3.0  # times the penetration by weight, to which a seal is looked for
+
+
+def given(run: Results, name: str) -> float:
+    """Return an entry of section Design; 0 where it is not given."""
+    return float(run.entry(f"Design/{name}") or 0)
+
+
+def weight_of(run: Results) -> float:
+    """Return the weight of the caisson in water."""
+    return float(run.scene.get("submerged_weight_N") or 0) / 1e3
+
+
+def factor_of(run: Results, depth: float) -> float:
+    """Return a, the pressure at the tip over the suction, by Houlsby & Byrne. Raises
+    NotApplicable."""
+    byrne = theory.houlsby_byrne_of(theory.site_of(run), depth)
+    caisson, _ = byrne.by_name[UNDISTURBED]
+    slenderness = depth / caisson.outer_diameter
+    return pressure_factor(slenderness, byrne.permeability_ratio)
+
+
+class Seal(NamedTuple):
+    """Where the caisson rests by its weight: the first suction that the seal allows by
+    its factor, the one that is applied (0 if it is not given), the exit gradient under
+    it, or else under the one that is allowed, the critical one, and the least embedment
+    for it, nan where it is not known."""
+
+    rest: float
+    allowed: float
+    applied: float
+    gradient: float
+    critical: float
+    least: float
+
+    @property
+    def path(self) -> float:
+        """The length of the way of the water along both walls."""
+        return sealing.exit_path(self.rest)
+
+
+def seal_of(run: Results, found: Installation) -> Seal | None:
+    """Return the seal in sand by Houlsby & Byrne."""
+    if not found.rest:
+        return None
+    end = min(FURTHER * found.rest, float(found.depth[-1]))
+    depth = np.union1d(np.linspace(end / ROWS, end, ROWS), found.rest)
+    answers = suction_methods.answers_of(theory.site_of(run), depth)
+    if not answers.suctions:
+        return None
+    piping = answers.suctions[suction_methods.PIPING]
+    allowed = piping / found.factors[limits.PIPING]
+    applied, at_rest = given(run, START), depth == found.rest
+    suction = applied or float(allowed[at_rest][0])
+    a = factor_of(run, found.rest)
+    gradient = sealing.exit_gradient(suction, found.rest, a)
+    critical = gradient * float(piping[at_rest][0]) / suction
+    least = sealing.least_embedment(depth, allowed, applied) if applied else nan
+    parts = float(allowed[at_rest][0]) / 1e3, applied / 1e3, gradient, critical, least
+    return Seal(found.rest, *parts)
+
+
+class Grout(NamedTuple):
+    """The space beneath the lid at a depth: its volume (m3), mean, least and largest
+    gap, the tilt of the lid (degrees, 0 if it is not given), and the excess pressures
+    at which sand outside pipes, by its factor (nan if none does), and at which the
+    caisson is lifted."""
+
+    depth: float
+    volume: float
+    gap: float
+    ends: tuple[float, float]
+    tilt: float
+    piping: float
+    lifts: float
+
+
+def grout_of(run: Results, found: Installation) -> Grout | None:
+    """Return the space for grout; None where the room below the lid is not known."""
+    if not len(found.room):
+        return None
+    depth, gap = float(found.depth[-1]), float(found.room[-1])
+    area, tilt = plug_area(run.scene), given(run, TILT)
+    inner = float(run.scene["diameter_m"]) - 2 * float(run.scene["wall_thickness_m"])
+    answers = suction_methods.answers_of(theory.site_of(run), np.array([depth]))
+    piping = nan
+    if answers.suctions:
+        inside = answers.suctions[suction_methods.PIPING][0]
+        outside = sealing.grout_pressure(float(inside), factor_of(run, depth))
+        piping = outside / found.factors[limits.PIPING] / 1e3
+    ends = sealing.gaps(gap, inner, tilt)
+    volume, lifts = area * max(gap, 0.0), weight_of(run) / area
+    return Grout(depth, volume, gap, ends, tilt, piping, lifts)
+
+
+class Scour(NamedTuple):
+    """A depth of scour, the embedment at the end without and with it, and the share of
+    the friction outside that the soil above it has, nan where it is not known."""
+
+    scour: float
+    embedment: float
+    counts: float
+    share: float
+
+
+def scour_of(run: Results, found: Installation) -> Scour | None:
+    """Return what scour leaves; None where no depth of it is given."""
+    if not (scour := given(run, SCOUR)):
+        return None
+    end, share = float(found.depth[-1]), nan
+    if rows := disturbed.last_rows(run.walls, end):
+        friction = rows["outer_area_m2"] * np.nan_to_num(rows["outer_shear_stress_Pa"])
+        if (total := float(friction.sum())) > 0:
+            share = float(friction[rows["depth_m"] <= scour].sum()) / total
+    return Scour(scour, end, max(end - scour, 0.0), share)
+
+
+class Level(NamedTuple):
+    """Of several buckets: their number, the least and the largest resistance of each
+    over that of the run, at the end, and where that is from; the largest differential
+    of suctions that keeps the frame level, with its depth; and the largest tilt under
+    one suction for all (degrees), with its depth, and that which is allowed (0 if it is
+    not given)."""
+
+    number: int
+    ends: list[tuple[float, float]]
+    of_band: bool
+    differential: tuple[float, float]
+    tilt: tuple[float, float]
+    allowed: float
+
+
+def resistance_at(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return the resistance of the ground at depths [n]: what weight and suction have
+    to overcome, with what seepage takes from it (N)."""
+    needs = at_depths(run, at)[SUCTION]
+    way = run.history[DEPTH]
+    found = 1e3 * weight_of(run) + plug_area(run.scene) * needs
+    return np.where((at >= way.min()) & (at <= way.max() + 1e-6), found, nan)
+
+
+def shares_of_band(run: Results, at: np.ndarray) -> np.ndarray:
+    """Return low and high resistance over that of the run at depths [n]: [n, 2], nan
+    without these runs."""
+    others = [member for name, member in band_of(run).items() if name != BEST]
+    if len(others) < 2:
+        return np.full((len(at), 2), nan)
+    best = resistance_at(run, at)
+    ratios = [resistance_at(member, at) / best for member in others]
+    return np.column_stack([np.min(ratios, axis=0), np.max(ratios, axis=0)])
+
+
+def spreads_of(run: Results) -> list[float]:
+    """Return how far the resistance of each bucket may be from that of the run, as a
+    share: one number stands for all, and none for what is not given."""
+    words = run.entry(f"Design/{SPREAD}").split(",")
+    return [float(word) for word in words if word.strip()]
+
+
+def shares_at(run: Results, at: np.ndarray, number: int) -> np.ndarray:
+    """Return the least and the largest resistance of each bucket over that of the run
+    at depths [n]: [n, number, 2], nan where it is not known."""
+    if spreads := spreads_of(run):
+        ends = np.array([[1 - x, 1 + x] for x in spreads])
+        return np.broadcast_to(ends, (len(at), number, 2))
+    return np.repeat(shares_of_band(run, at)[:, np.newaxis], number, axis=1)
+
+
+def lacking(run: Results) -> str:
+    """Return what keeps several buckets from having a levelness, in words; nothing of
+    one caisson, and where nothing is lacking."""
+    number, spreads = int(given(run, NUMBER)), spreads_of(run)
+    if number not in buckets.NUMBERS:
+        return ""
+    if not given(run, DISTANCE):
+        return f"not given: Design/{DISTANCE}"
+    if len(spreads) not in (0, 1, number):
+        return f"Design/{SPREAD} has {len(spreads)} numbers, not {number}"
+    no_band = not spreads and len(band_of(run)) < 3
+    words = f"not given: Design/{SPREAD}, nor runs of low and high resistance"
+    return words if no_band else ""
+
+
+def level_of(run: Results, found: Installation) -> Level | None:
+    """Return the levelness of several buckets; None of one, and where lacking() has
+    words."""
+    number, at = int(given(run, NUMBER)), found.depth
+    if number not in buckets.NUMBERS or lacking(run) or len(at) < 2:
+        return None
+    force, ends = resistance_at(run, at), shares_at(run, at, number)
+    slope, weight = np.gradient(force, at), 1e3 * weight_of(run)
+    loads, distance = (weight, plug_area(run.scene)), given(run, DISTANCE)
+    known = np.isfinite(ends).all(axis=(1, 2)) & (force > weight)
+    if not (rows := np.flatnonzero(known)).size:
+        return None
+    apart = max(
+        (buckets.differential(ends[i], float(force[i]), *loads) / 1e3, float(at[i]))
+        for i in rows
+    )
+    turned = max(
+        (buckets.largest_tilt(ends[i], distance, force[i], slope[i]), float(at[i]))
+        for i in rows
+    )
+    last = [(float(low), float(high)) for low, high in ends[rows[-1]]]
+    return Level(number, last, not spreads_of(run), apart, turned, given(run, TILT))
+
+
+class Load(NamedTuple):
+    """The load case where the suction is nearest to the allowable one: that depth, the
+    suction, the axial force (kN) on the top of the wall, the depths of the frames
+    around, and places along the wall with their depth below the mudline and the net
+    pressure from outside."""
+
+    depth: float
+    suction: float
+    axial: float
+    frames: list[float]
+    along: list[tuple[str, float, float]]
+
+
+def beyond_suction(pressures: Table, depth: float) -> np.ndarray:
+    """Return what the net pressure from outside has beyond the suction at DOWN shares
+    of the embedment, at a depth: linear between the frames, and as at the last one
+    below it (kPa)."""
+    at = np.unique(pressures[DEPTH])
+    found = list[np.ndarray]()
+    for h in at:
+        rows = pressures[DEPTH] == h
+        z, net = (pressures[x][rows] for x in ("depth_m", "net_external_pressure_Pa"))
+        more = net - pressures["suction_Pa"][rows]
+        found.append(np.interp(h * np.array(list(DOWN.values())), z, more) / 1e3)
+    return np.array([np.interp(depth, at, column) for column in np.array(found).T])
+
+
+def load_of(run: Results, found: Installation) -> Load | None:
+    """Return the load case for a model of the shell; None without frames."""
+    wall = limits.wall_of(run) if found.has_suction else None
+    pressures = shell.pressures_of(run, wall) if wall else {}
+    if not wall or not pressures:
+        return None
+    shares = np.nan_to_num(found.utilization)
+    row = int(np.argmax(shares if shares.any() else found.required))
+    depth, suction = float(found.depth[row]), float(found.required[row])
+    more = beyond_suction(pressures, depth)
+    along = [("lid", -wall.free_length(depth), suction)]
+    for (name, share), change in zip(DOWN.items(), more):
+        along.append((name, share * depth, suction + float(change)))
+    at = np.unique(pressures[DEPTH])
+    around = [*at[at <= depth][-1:], *at[at > depth][:1]]
+    axial = weight_of(run) + suction * wall.area_inside
+    return Load(depth, suction, axial, [float(h) for h in around], along)
+
+
+class Stop(NamedTuple):
+    """When the vessel stops, with numbers of a depth end: the allowable suction where
+    any is needed, at the first and the last such depth, with what governs there; the
+    heave that fills the skirt at the planned depth, and the one computed; the flow at
+    which the exit gradient would be critical (m3/h), and the one computed; the tilt
+    (degrees, 0 if it is not given). nan stands for what is not known."""
+
+    end: float
+    suctions: list[tuple[float, float, str]]
+    heave: tuple[float, float]
+    flow: tuple[float, float]
+    tilt: float
+
+
+def stop_of(run: Results, found: Installation, planned: float) -> Stop:
+    """Return when the vessel stops on the way to a planned depth."""
+    needed = np.flatnonzero((found.required > NOTHING) & np.isfinite(found.allowable))
+    rows = dict.fromkeys([int(needed[0]), int(needed[-1])]) if len(needed) else {}
+    suctions = [
+        (float(found.depth[i]), float(found.allowable[i]), found.governing_in_words(i))
+        for i in rows
+    ]
+    heave, end = (nan, nan), float(found.depth[-1])
+    if len(found.room):
+        heave = float(run.scene["skirt_length_m"]) - planned, float(found.heave[-1])
+    tilt = given(run, TILT)
+    return Stop(end, suctions, heave, flows_of(found), tilt)
+
+
+def flows_of(found: Installation) -> tuple[float, float]:
+    """Return the flow at the end with the seepage of a critical gradient in place of
+    the computed one, as it is linear in the suction, and the computed flow (m3/h)."""
+    limit = found.limits.get(limits.COMPUTED, np.array([nan]))[-1]
+    if not len(found.seepage) or not len(found.flow):
+        return nan, nan
+    flow, seepage = float(found.flow[-1]), float(found.seepage[-1])
+    if not found.required[-1] > NOTHING:
+        return nan, flow
+    critical = limit * found.factors[limits.COMPUTED] / float(found.required[-1])
+    return flow - seepage + seepage * float(critical), flow
