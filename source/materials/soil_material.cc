@@ -288,29 +288,6 @@ namespace CaissonMPM
     return result;
   }
 
-  bool
-  has_yield_stress(const Kernels::Material &material)
-  {
-    return Kernels::law_table.law[material.law].has_yield_stress;
-  }
-
-  double
-  yield_stress_of(const Kernels::Material &material,
-                  const Stress            &stress,
-                  const double             void_ratio,
-                  const StateVariables    &state)
-  {
-    double result = 0.;
-    Kernels::with_law(material, [&](const auto l, const auto &p) {
-      if constexpr (decltype(l)::has_yield_stress)
-        result = l.yield_stress(one_lane(stress),
-                                Kernels::Lanes<1>(void_ratio),
-                                Kernels::Lanes<1>(state[0]),
-                                p)[0];
-    });
-    return result;
-  }
-
   double
   void_ratio_of_soil(const Kernels::Material &material,
                      const Stress            &stress,

@@ -128,12 +128,6 @@ namespace CaissonMPM
               "with Method/Mean volume change = false locks, or loses strength "
               "to vibrations of the volume. Set Mean volume change = true.");
     undrained_volume(soil);
-    if (soil.law_value("Yield stress ratio") == 1. &&
-        origins.is_set(soil.section() + "/Overconsolidation ratio"))
-      origins.add_warning(soil.section() +
-                          "/Overconsolidation ratio only raises K0: the soil "
-                          "is normally consolidated, because Yield stress "
-                          "ratio is 1. Set it.");
     const auto cohesion = soil.law_value("Cohesion");
     if (cohesion == 0. && soil.friction_angle() == 0.)
       doubt(soil.section() + "/Cohesion",
@@ -193,8 +187,7 @@ namespace CaissonMPM
     const auto has = [&soil](const char *const name) {
       return soil.law_value(name).has_value();
     };
-    if (!has("Maximum void ratio") && !has("Critical void ratio") &&
-        !has("Critical void ratio at 1 kPa"))
+    if (!has("Maximum void ratio") && !has("Critical void ratio"))
       return;
     for (const char *const name :
          {"Relative density", "Void ratio", "Porosity"})

@@ -232,8 +232,6 @@ check_refusals()
      "set Relative density = 0.6\nset Minimum void ratio = 0.5\n"
      "set Maximum void ratio = 0.9\nset K0 = 0.1",
      "set Law = NGI-ADP\nset Active strength = 2e4\nset K0 = 0.3",
-     "set Law = modified Cam clay\nset Void ratio = 1\nset K0 = 0.2",
-     "set Law = NorSand\nset Void ratio = 0.7\nset K0 = 0.1",
      "set Law = hypoplastic sand with intergranular strain\nset Void ratio = 0.6\nset K0 = 0.1",
      // below 2 c / (1 - K0) it stands, where strength grows with depth
      "set Friction angle = 0\nset Cohesion = 100 + 0.25*s\nset K0 = 0.45",

@@ -10,11 +10,9 @@
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/material.h>
-#include <caisson_mpm/kernels/modified_cam_clay.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/ngi_adp.h>
-#include <caisson_mpm/kernels/nor_sand.h>
 #include <caisson_mpm/kernels/user_material.h>
 
 namespace CaissonMPM
@@ -32,9 +30,7 @@ namespace CaissonMPM
                            MohrCoulomb,
                            HypoplasticIntergranular,
                            MohrCoulombDensity,
-                           ModifiedCamClay,
                            NgiAdp,
-                           NorSand,
                            UserMaterial>;
 
       template <typename Law, typename... All>
@@ -97,7 +93,6 @@ namespace CaissonMPM
         const char *name;
         int         n_entries;
         bool        stiffness_varies;
-        bool        has_yield_stress;
 
         const Entry &(*entry)(const int i);
 
@@ -126,7 +121,6 @@ namespace CaissonMPM
         return {Law::name,
                 n_entries<Law>,
                 Law::stiffness_varies,
-                Law::has_yield_stress,
                 &entry_of<Law>,
                 &set_values<Law>};
       }

@@ -197,14 +197,6 @@ namespace CaissonMPM
           0.,
           0.,
           19.};
-        constexpr Entry yield_stress_ratio = {
-          "Yield stress ratio",
-          "",
-          "The size of the yield surface of a point at the start over that of "
-          "the one through its stress: 1 in normally consolidated soil.",
-          1.,
-          1.,
-          1e3};
         constexpr Entry reference_stress = {
           "Reference stress",
           "Pa",
@@ -248,10 +240,6 @@ namespace CaissonMPM
          *   Mask is_loosest(stress, volume, volume_of_solids, parameters);
          * the second without a division, for each step: loosest_state.h. */
         static constexpr bool has_loosest_state = false;
-
-        /** Has Number yield_stress(stress, void_ratio, variable, parameters),
-         * in Pa, of the first variable of the point: what frames call so. */
-        static constexpr bool has_yield_stress = false;
 
         /** Has bool bears(stress, void_ratio, parameters), with the types of
          * p_wave_modulus(): whether its strength holds a stress at rest. A law

@@ -167,18 +167,6 @@ namespace CaissonMPM
                  const Stress            &stress,
                  const double             void_ratio);
 
-  /** Whether points of a material have a yield stress. */
-  bool
-  has_yield_stress(const Kernels::Material &material);
-
-  /** The yield stress of a point: p_c of modified Cam clay, p_i of NorSand.
-   * @p state: the variables of its law. Units: Pa. */
-  double
-  yield_stress_of(const Kernels::Material &material,
-                  const Stress            &stress,
-                  const double             void_ratio,
-                  const StateVariables    &state);
-
   /** The void ratio of the soil itself, if that of a point may include a gap.
    */
   double
