@@ -6,7 +6,7 @@ import unittest
 from typing import Any
 
 import numpy as np
-from made_up_state import K0, made_up, on_mesh, Temporary, WEDGE, WEIGHT, WINDOW
+from made_up_state import made_up, on_mesh, Temporary, WEDGE, WINDOW
 from plain_solver import forces_of, read_deck
 from scipy.spatial import cKDTree
 
