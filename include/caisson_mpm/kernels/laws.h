@@ -79,7 +79,8 @@ namespace CaissonMPM
                       "enlarge n_state_variables (material.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = Law::volume_in_shear(parameters);
-        material.is_frictionless = Law::is_frictionless(parameters);
+        material.is_frictionless =
+          parameters.shear_strength >= 0. && !(parameters.friction_angle > 0.);
         material.has_loosest_state =
           Law::has_loosest_state && Law::needs_void_ratio(parameters);
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
@@ -96,6 +97,8 @@ namespace CaissonMPM
 
         const Entry &(*entry)(const int i);
 
+        LawNumbers (*numbers)(const double *values);
+
         /** Write the law and its parameters into the material. */
         void (*set)(Material &, const double *values);
       };
@@ -105,6 +108,13 @@ namespace CaissonMPM
       entry_of(const int i)
       {
         return Law::entries[i].entry;
+      }
+
+      template <typename Law>
+      inline LawNumbers
+      numbers_of(const double *values)
+      {
+        return read_parameters<Law>(values);
       }
 
       template <typename Law>
@@ -122,6 +132,7 @@ namespace CaissonMPM
                 n_entries<Law>,
                 Law::stiffness_varies,
                 &entry_of<Law>,
+                &numbers_of<Law>,
                 &set_values<Law>};
       }
 

@@ -69,6 +69,22 @@ namespace CaissonMPM
 
       constexpr double radians_per_degree = 3.14159265358979323846 / 180.;
 
+      constexpr double no_number = __builtin_nan("");
+
+      /**
+       * What reports, reviews and walls ask of a law: its parameters begin with
+       * these, and entries or derive() set what the law has. The friction angle
+       * is the peak or the critical one, the strength that at no pressure, and
+       * the void ratios are those of the densest and the loosest packing.
+       */
+      struct LawNumbers
+      {
+        double youngs_modulus = no_number, poisson_ratio = no_number;
+        double friction_angle = no_number, dilatancy_angle = 0.; // degrees
+        double shear_strength = no_number, tension_cutoff = 0.;  // Pa
+        double densest = no_number, loosest = no_number;
+      };
+
       /** What check() of a law may hold its entries against. */
       struct LawContext
       {
@@ -269,14 +285,6 @@ namespace CaissonMPM
           return VolumeInShear::by_state;
         }
 
-        /** Whether the strength is the same at all pressures. */
-        template <typename Parameters>
-        static bool
-        is_frictionless(const Parameters &)
-        {
-          return false;
-        }
-
         /** Whether a law with uses_void_ratio reads it with these parameters.
          */
         template <typename Parameters>
@@ -303,9 +311,8 @@ namespace CaissonMPM
 
       /** The elasticity of the law of Hooke: Lame's constants, the bulk modulus
        * (Pa), and nu / (1 - nu), the earth pressure at rest. */
-      struct Elasticity
+      struct Elasticity : LawNumbers
       {
-        double youngs_modulus, poisson_ratio; // entries
         double lambda, mu, bulk, oedometric;
 
         void

@@ -78,6 +78,9 @@ namespace CaissonMPM
           derive()
           {
             MohrCoulomb::Parameters::derive();
+            shear_strength          = no_number;
+            densest                 = minimum_void_ratio;
+            loosest                 = largest_void_ratio;
             constexpr double ln_kPa = 6.907755278982137; // ln 1000
             const double     e_max  = largest_void_ratio,
                          range      = e_max - minimum_void_ratio;
