@@ -4,9 +4,8 @@ their entries, as scenes and run.json have them; nothing else in Python spells t
 
 LAW = "Mohr-Coulomb by density and stress"
 HYPOPLASTIC = "hypoplastic sand with intergranular strain"
-NOR_SAND = "NorSand"
 # in run.json the friction angle of these laws is the critical one
-BY_DENSITY = (HYPOPLASTIC, LAW, NOR_SAND)
+BY_DENSITY = (HYPOPLASTIC, LAW)
 
 # entries of LAW alone
 CRITICAL_ANGLE = "Critical friction angle"  # degrees

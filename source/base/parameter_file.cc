@@ -31,7 +31,9 @@ namespace CaissonMPM
       no_softening = "Remove it. Strength falls as sand dilates with Law = "
                      "Mohr-Coulomb by density and stress.",
       no_length    = "Remove it: shear bands are about a cell wide, so compare "
-                     "meshes.";
+                     "meshes.",
+      of_gone_law  = "Remove it: it was of NorSand or modified Cam clay, which "
+                     "are gone.";
 
     /** Entries and values of earlier versions, and what to do instead; k is the
      * number of a layer, or a face. */
@@ -75,12 +77,28 @@ namespace CaissonMPM
        "stress, too, or set an expression in p as Youngs modulus."},
       {"Soil/Layer k/Law = hypoplastic sand",
        "Set hypoplastic sand with intergranular strain."},
+      {"Soil/Layer k/Law = NorSand",
+       "Set Mohr-Coulomb by density and stress, or hypoplastic sand with "
+       "intergranular strain: their strength follows the density, too."},
+      {"Soil/Layer k/Law = modified Cam clay",
+       "Set Mohr-Coulomb with the undrained strength as Cohesion, or with the "
+       "drained Friction angle; a UMAT of Cam clay runs as user material."},
       {"Soil/Layer k/Residual friction angle", no_softening},
       {"Soil/Layer k/Residual dilatancy angle", no_softening},
       {"Soil/Layer k/Residual cohesion", no_softening},
       {"Soil/Layer k/Softening shape factor", no_softening},
       {"Soil/Layer k/Internal length", no_length},
-      {"Soil/Layer k/Internal velocity", no_length}};
+      {"Soil/Layer k/Internal velocity", no_length},
+      {"Soil/Layer k/Volume in shear",
+       "Remove it: a user material changes the volume as its state says."},
+      {"Soil/Layer k/Slope of compression", of_gone_law},
+      {"Soil/Layer k/Slope of swelling", of_gone_law},
+      {"Soil/Layer k/Slope of the critical state", of_gone_law},
+      {"Soil/Layer k/Critical void ratio at 1 kPa", of_gone_law},
+      {"Soil/Layer k/Volumetric coupling", of_gone_law},
+      {"Soil/Layer k/State dilatancy", of_gone_law},
+      {"Soil/Layer k/Plastic hardening", of_gone_law},
+      {"Soil/Layer k/Yield stress ratio", of_gone_law}};
 
     /** What to do instead of an entry, or of "entry = value"; empty: it is none
      * of an earlier version. */

@@ -191,8 +191,8 @@ namespace CaissonMPM
     return std::any_of(materials.begin(),
                        materials.end(),
                        [](const SoilMaterial &m) {
-                         return m.friction_angle().value_or(0.) > 0. ||
-                                m.shear_strength().value_or(0.) <= 0.;
+                         return m.friction_angle.value_or(0.) > 0. ||
+                                m.shear_strength.value_or(0.) <= 0.;
                        });
   }
 
@@ -216,7 +216,7 @@ namespace CaissonMPM
     // without friction it bears what its strength does, and not its weight
     double least = std::numeric_limits<double>::infinity();
     for (unsigned int i = material_at(z + height); i <= material_at(z); ++i)
-      least = std::min(least, .5 * *materials[i].shear_strength());
+      least = std::min(least, .5 * *materials[i].shear_strength);
     return least;
   }
 
@@ -455,7 +455,7 @@ namespace CaissonMPM
     const bool stiffens =
       std::all_of(materials.begin(), materials.end(), [depth](const auto &m) {
         return m.top_depth >= depth ||
-               (m.stiffness_varies() && m.law_value("Youngs modulus"));
+               (m.stiffness_varies() && m.youngs_modulus);
       });
     return stiffens ? 400. : 100.;
   }
@@ -487,10 +487,9 @@ namespace CaissonMPM
     {
       constexpr double harmless = .3, harmful = .4, with_friction = .1;
       const double     least =
-        m.friction_angle().value_or(0.) > 0. ? with_friction : 0.;
+        m.friction_angle.value_or(0.) > 0. ? with_friction : 0.;
       const double nu =
-        m.law_value("Poisson ratio")
-          .value_or(m.umat ? m.umat_stiffness.poisson : harmless);
+        m.poisson_ratio.value_or(m.umat ? m.umat_stiffness.poisson : harmless);
       return std::clamp((nu - harmless) / (harmful - harmless), least, 1.);
     }
   } // namespace

@@ -425,10 +425,11 @@ namespace CaissonMPM
   {
     result.law          = law_named(law);
     result.permeability = permeability(place);
-    result.law_values.clear();
+    std::vector<double>   of_law;
     const LawDescription &description = Kernels::law_table.law[result.law];
     for (int i = 0; i < description.n_entries; ++i)
-      result.law_values.push_back(values.at(description.entry(i).name)(place));
+      of_law.push_back(values.at(description.entry(i).name)(place));
+    result.set_law_values(of_law);
   }
 
   void
@@ -438,7 +439,7 @@ namespace CaissonMPM
       result.wall_friction_angle = (*wall_friction_angle)(place);
     if (!adhesion_factor)
       return;
-    const auto strength = result.shear_strength();
+    const auto strength = result.shear_strength;
     if (!strength)
       throw BadInput(adhesion_factor->name() + ", but the law " + law +
                      " has no undrained strength. Set it to \"of the body\".");
@@ -457,7 +458,7 @@ namespace CaissonMPM
     if (ratio > 1.)
       result *=
         std::pow(ratio,
-                 std::sin(material.friction_angle().value_or(0.) * pi / 180.));
+                 std::sin(material.friction_angle.value_or(0.) * pi / 180.));
     return result;
   }
 

@@ -18,6 +18,13 @@ namespace CaissonMPM
       return Kernels::law_table.law[law];
     }
 
+    /** A number, if the law has it. */
+    std::optional<double>
+    known(const double number)
+    {
+      return std::isnan(number) ? std::optional<double>() : number;
+    }
+
     /** A stress as the laws take that of one point. */
     Kernels::StressState<Kernels::Lanes<1>>
     one_lane(const Stress &stress)
@@ -70,6 +77,23 @@ namespace CaissonMPM
   }
 
   void
+  SoilMaterial::set_law_values(std::vector<double> values)
+  {
+    law_values                  = std::move(values);
+    const Kernels::LawNumbers n = description(law).numbers(law_values.data());
+    youngs_modulus              = known(n.youngs_modulus);
+    poisson_ratio               = known(n.poisson_ratio);
+    friction_angle              = known(n.friction_angle);
+    dilatancy_angle             = n.dilatancy_angle;
+    shear_strength              = known(n.shear_strength);
+    tension_cutoff              = n.tension_cutoff;
+    densest_void_ratio          = known(n.densest);
+    loosest_void_ratio          = known(n.loosest);
+    if (!law_value("Youngs modulus")) // that of NGI-ADP is none of its entries
+      youngs_modulus.reset();
+  }
+
+  void
   SoilMaterial::check(const double mean_stress) const
   {
     Kernels::Material material;
@@ -81,8 +105,7 @@ namespace CaissonMPM
                    message))
         throw BadInput(section() + "/" + message.text);
     });
-    if (stress_measure == Kernels::StressMeasure::kirchhoff &&
-        !law_value("Youngs modulus"))
+    if (stress_measure == Kernels::StressMeasure::kirchhoff && !youngs_modulus)
       throw BadInput(section() + "/Stress measure = Kirchhoff: the law " +
                      law_name() +
                      " has no elasticity of its own. Set it to Cauchy.");
@@ -105,16 +128,10 @@ namespace CaissonMPM
   {
     if (relative_density)
       return relative_density;
-    auto densest = law_value("Densest void ratio"),
-         loosest = law_value("Critical void ratio");
-    if (!densest)
-      {
-        densest = law_value("Minimum void ratio");
-        loosest = law_value("Maximum void ratio");
-      }
-    if (!densest || !loosest || *densest >= *loosest)
+    if (!loosest_void_ratio || *densest_void_ratio >= *loosest_void_ratio)
       return {};
-    return (*loosest - void_ratio()) / (*loosest - *densest);
+    return (*loosest_void_ratio - void_ratio()) /
+           (*loosest_void_ratio - *densest_void_ratio);
   }
 
   std::string
@@ -126,71 +143,54 @@ namespace CaissonMPM
   bool
   SoilMaterial::is_elastic_until_it_yields() const
   {
-    return law_value("Youngs modulus") &&
-           (friction_angle() || shear_strength());
-  }
-
-  std::optional<double>
-  SoilMaterial::friction_angle() const
-  {
-    const auto peak = law_value(Kernels::Entries::friction_angle.name);
-    return peak ? peak :
-                  law_value(Kernels::Entries::critical_friction_angle.name);
+    return youngs_modulus && friction_angle;
   }
 
   double
   SoilMaterial::speed_of_failure() const
   {
-    const double psi =
-      law_value(Kernels::Entries::dilatancy_angle.name).value_or(0.);
-    return std::exp(.5 * pi * std::tan(psi * Kernels::radians_per_degree));
+    return std::exp(.5 * pi *
+                    std::tan(dilatancy_angle * Kernels::radians_per_degree));
   }
 
-  std::vector<std::pair<std::string, std::string>>
+  std::vector<std::tuple<std::string, std::string, double>>
   SoilMaterial::law_entries() const
   {
-    std::vector<std::pair<std::string, std::string>> result;
+    std::vector<std::tuple<std::string, std::string, double>> result;
     for (int i = 0; i < description(law).n_entries; ++i)
       result.emplace_back(description(law).entry(i).name,
-                          description(law).entry(i).unit);
+                          description(law).entry(i).unit,
+                          law_values[i]);
     return result;
   }
 
   std::optional<double>
   SoilMaterial::law_value(const std::string &entry) const
   {
-    for (int i = 0; i < description(law).n_entries; ++i)
-      if (entry == description(law).entry(i).name)
-        return law_values[i];
+    for (const auto &[name, unit, value] : law_entries())
+      if (name == entry)
+        return value;
     return {};
-  }
-
-  std::optional<double>
-  SoilMaterial::shear_strength() const
-  {
-    if (const auto active = law_value("Active strength"))
-      return *active * *law_value("Direct shear strength ratio");
-    return law_value("Cohesion");
   }
 
   bool
   SoilMaterial::has_undrained_strength() const
   {
-    return shear_strength().value_or(0.) > 0. &&
-           friction_angle().value_or(0.) == 0.;
+    return shear_strength.value_or(0.) > 0. &&
+           friction_angle.value_or(0.) == 0.;
   }
 
   double
   SoilMaterial::tension() const
   {
-    const double cohesion = shear_strength().value_or(0.);
+    const double cohesion = shear_strength.value_or(0.);
     if (cohesion <= 0.)
       return 0.;
     // at most that of the apex of the cone, c cot phi
     const double slope =
-      std::tan(friction_angle().value_or(0.) * Kernels::radians_per_degree);
-    const double cutoff = law_value("Tension cut-off").value_or(0.);
-    return cutoff * slope < cohesion ? cutoff : cohesion / slope;
+      std::tan(friction_angle.value_or(0.) * Kernels::radians_per_degree);
+    return tension_cutoff * slope < cohesion ? tension_cutoff :
+                                               cohesion / slope;
   }
 
   double
@@ -257,10 +257,9 @@ namespace CaissonMPM
       return;
     auto &of_law = reinterpret_cast<Kernels::UserMaterial::Parameters &>(
       material.parameters);
-    of_law.modulus           = umat_stiffness.p_wave_modulus;
-    of_law.update            = &UmatLaw::call;
-    of_law.law               = umat.get();
-    material.volume_in_shear = volume_in_shear;
+    of_law.modulus = umat_stiffness.p_wave_modulus;
+    of_law.update  = &UmatLaw::call;
+    of_law.law     = umat.get();
   }
 
   StateVariables
@@ -284,29 +283,6 @@ namespace CaissonMPM
     Kernels::with_law(material, [&](const auto l, const auto &p) {
       result +=
         l.p_wave_modulus(one_lane(stress), Kernels::Lanes<1>(void_ratio), p)[0];
-    });
-    return result;
-  }
-
-  bool
-  has_yield_stress(const Kernels::Material &material)
-  {
-    return Kernels::law_table.law[material.law].has_yield_stress;
-  }
-
-  double
-  yield_stress_of(const Kernels::Material &material,
-                  const Stress            &stress,
-                  const double             void_ratio,
-                  const StateVariables    &state)
-  {
-    double result = 0.;
-    Kernels::with_law(material, [&](const auto l, const auto &p) {
-      if constexpr (decltype(l)::has_yield_stress)
-        result = l.yield_stress(one_lane(stress),
-                                Kernels::Lanes<1>(void_ratio),
-                                Kernels::Lanes<1>(state[0]),
-                                p)[0];
     });
     return result;
   }

@@ -44,21 +44,6 @@ namespace CaissonMPM
       };
     }
 
-    /** The yield stress of points (Pa), unknown where their law has none. */
-    Quantity
-    yield_stress(const std::vector<Kernels::Material> &materials)
-    {
-      return [materials](const MaterialPoint &p) {
-        const Kernels::Material &material = materials[p.material];
-        return has_yield_stress(material) ?
-                 yield_stress_of(material,
-                                 p.stress,
-                                 p.void_ratio(material.initial_void_ratio),
-                                 p.state) :
-                 unknown;
-      };
-    }
-
     bool
     is_pore_pressure(const PointField &field)
     {
@@ -161,18 +146,13 @@ namespace CaissonMPM
                       *const name_of_ratio =
                         "vertical_stress_over_stress_at_rest";
 
-    /** What the laws keep of a point: the yield stress, and STATEV of user
-     * materials, where there are any. */
+    /** What the laws keep of a point: STATEV of user materials, if any. */
     std::vector<FrameField>
     fields_of_laws(const Soil &soil)
     {
       std::vector<FrameField> fields;
-      const auto              materials = soil.kernel_materials();
-      if (std::any_of(materials.begin(), materials.end(), has_yield_stress))
-        fields.push_back(
-          {"yield_stress_Pa", 1, {{0, yield_stress(materials)}}});
-      const unsigned int n_state = soil.n_user_state(),
-                         first   = Kernels::UserState::variables;
+      const unsigned int      n_state = soil.n_user_state(),
+                         first        = Kernels::UserState::variables;
       for (unsigned int i = first; i < n_state; ++i)
         fields.push_back({"statev_" + to_text(i - first + 1),
                           1,

@@ -190,9 +190,8 @@ namespace CaissonMPM
     entries_of_law(const SoilMaterial &m)
     {
       Json items = Json::array();
-      for (const auto &[name, unit] : m.law_entries())
-        items.push_back(
-          {{"entry", name}, {"value", *m.law_value(name)}, {"unit", unit}});
+      for (const auto &[name, unit, value] : m.law_entries())
+        items.push_back({{"entry", name}, {"value", value}, {"unit", unit}});
       return items;
     }
 
@@ -210,9 +209,9 @@ namespace CaissonMPM
                                      {"K0", m.earth_pressure_at_rest},
                                      {"total_stress", water.shows_total_stress(m)}};
       const std::pair<const char *, std::optional<double>> values[] = {
-        {"friction_angle_deg", m.friction_angle()},
-        {"cohesion_Pa", m.shear_strength()},
-        {"youngs_modulus_Pa", m.law_value("Youngs modulus")},
+        {"friction_angle_deg", m.friction_angle},
+        {"cohesion_Pa", m.shear_strength},
+        {"youngs_modulus_Pa", m.youngs_modulus},
         {"porosity", m.porosity},
         {"relative_density", m.density_index()},
         {"wall_friction_angle_deg", m.wall_friction_angle},

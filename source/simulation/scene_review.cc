@@ -120,7 +120,7 @@ namespace CaissonMPM
   SceneReview::stiffness_and_strength(const SoilMaterial &soil)
   {
     constexpr double stiff_volume = .4;
-    if (const auto nu = soil.law_value("Poisson ratio"))
+    if (const auto nu = soil.poisson_ratio)
       if (*nu > stiff_volume && !scene.method.uses_mean_volume())
         doubt(soil.section() + "/Poisson ratio",
               *nu,
@@ -128,20 +128,13 @@ namespace CaissonMPM
               "with Method/Mean volume change = false locks, or loses strength "
               "to vibrations of the volume. Set Mean volume change = true.");
     undrained_volume(soil);
-    if (soil.law_value("Yield stress ratio") == 1. &&
-        origins.is_set(soil.section() + "/Overconsolidation ratio"))
-      origins.add_warning(soil.section() +
-                          "/Overconsolidation ratio only raises K0: the soil "
-                          "is normally consolidated, because Yield stress "
-                          "ratio is 1. Set it.");
-    const auto cohesion = soil.law_value("Cohesion");
-    if (cohesion == 0. && soil.friction_angle() == 0.)
+    const auto strength = soil.shear_strength;
+    if (strength == 0. && soil.friction_angle == 0.)
       doubt(soil.section() + "/Cohesion",
             0.,
             "Pa",
             "with a friction angle of 0 is no strength at all. In clay, set it "
             "to the undrained shear strength.");
-    const auto strength = soil.shear_strength();
     if (strength && soil.wall_adhesion && *soil.wall_adhesion > *strength)
       origins.add_warning(
         soil.section() + "/Adhesion factor of the walls makes an adhesion of " +
@@ -154,8 +147,8 @@ namespace CaissonMPM
   SceneReview::undrained_volume(const SoilMaterial &soil)
   {
     constexpr double least = .45;
-    const auto       nu    = soil.law_value("Poisson ratio");
-    if (soil.law_value("Active strength") && *nu < least &&
+    const auto       nu    = soil.poisson_ratio;
+    if (nu && *nu < least && soil.shear_strength && !soil.friction_angle &&
         !scene.water.follows_soil && scene.water.bulk_modulus == 0.)
       doubt(soil.section() + "/Poisson ratio",
             *nu,
@@ -190,11 +183,7 @@ namespace CaissonMPM
   void
   SceneReview::density_of_state(const SoilMaterial &soil)
   {
-    const auto has = [&soil](const char *const name) {
-      return soil.law_value(name).has_value();
-    };
-    if (!has("Maximum void ratio") && !has("Critical void ratio") &&
-        !has("Critical void ratio at 1 kPa"))
+    if (!soil.loosest_void_ratio)
       return;
     for (const char *const name :
          {"Relative density", "Void ratio", "Porosity"})
@@ -313,7 +302,7 @@ namespace CaissonMPM
       std::min(0., scene.body.shape().bottom() - scene.lines.total_travel());
     const unsigned int  m    = scene.soil.material_at(deepest);
     const SoilMaterial &soil = scene.soil.material(m);
-    if (!soil.friction_angle() || soil.shear_strength().value_or(0.) > 0.)
+    if (!soil.friction_angle || soil.shear_strength.value_or(0.) > 0.)
       return;
     const double speed   = scene.body.motion().usual_velocity(),
                  inertia = scene.soil.inertial_density(m) * speed * speed,
@@ -387,28 +376,28 @@ namespace CaissonMPM
     const double        wall    = std::max(angles[outer_wall], inner);
     const SoilMaterial *weakest = nullptr, *strongest = nullptr;
     const auto          margin = [wall](const SoilMaterial &soil) {
-      return *soil.friction_angle() - soil.wall_friction_angle.value_or(wall);
+      return *soil.friction_angle - soil.wall_friction_angle.value_or(wall);
     };
     for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
       {
         const SoilMaterial &soil = scene.soil.material(i);
-        if (!soil.friction_angle() || soil.top_depth > depth)
+        if (!soil.friction_angle || soil.top_depth > depth)
           continue;
         if (weakest == nullptr || margin(soil) < margin(*weakest))
           weakest = &soil;
         if (strongest == nullptr ||
-            *soil.friction_angle() > *strongest->friction_angle())
+            *soil.friction_angle > *strongest->friction_angle)
           strongest = &soil;
       }
     if (weakest == nullptr)
       return;
     if (!is_block() && margin(*weakest) < 0.)
       friction_of_walls(*weakest, angles[outer_wall], inner);
-    if (angles[tip] > *strongest->friction_angle())
+    if (angles[tip] > *strongest->friction_angle)
       too_rough(tip,
                 "exceeds the friction angle of all soil that the tip meets, at "
                 "most " +
-                  to_text(*strongest->friction_angle(), 4) + " degrees");
+                  to_text(*strongest->friction_angle, 4) + " degrees");
   }
 
   void
@@ -418,7 +407,7 @@ namespace CaissonMPM
   {
     const std::string exceeds = "exceeds the friction angle of layer " +
                                 to_text(soil.layer + 1) + ", " +
-                                to_text(*soil.friction_angle(), 4) + " degrees";
+                                to_text(*soil.friction_angle, 4) + " degrees";
     if (soil.wall_friction_angle)
       doubt(soil.section() + "/Friction angle of the walls",
             *soil.wall_friction_angle,
@@ -426,7 +415,7 @@ namespace CaissonMPM
             exceeds + on_rough_surface);
     else
       too_rough(outer >= inner ? outer_wall : inner_wall,
-                exceeds + (std::min(outer, inner) > *soil.friction_angle() ?
+                exceeds + (std::min(outer, inner) > *soil.friction_angle ?
                              ", and so does that of the other wall" :
                              ""));
   }
@@ -538,8 +527,8 @@ namespace CaissonMPM
     for (const unsigned int i : scene.soil.uppermost_materials())
       {
         const SoilMaterial &soil     = scene.soil.material(i);
-        const double        cohesion = soil.shear_strength().value_or(0.);
-        const double        angle    = soil.friction_angle().value_or(0.);
+        const double        cohesion = soil.shear_strength.value_or(0.);
+        const double        angle    = soil.friction_angle.value_or(0.);
         const double friction = std::tan(angle * pi / 180.) * weight_above();
         if (soil.top_depth < depth_of_skirt() && cohesion > 0. &&
             !soil.has_undrained_strength() &&

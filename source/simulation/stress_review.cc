@@ -88,7 +88,7 @@ namespace CaissonMPM
           if (soil)
             stress(entry,
                    *scene.soil.material(*soil).law_value(entry.name),
-                   scene.soil.material(*soil).friction_angle());
+                   scene.soil.material(*soil).friction_angle);
           else if (!is_of_layer)
             stress(entry, number_of(entry), {});
         }
@@ -163,7 +163,7 @@ namespace CaissonMPM
     for (const unsigned int i : scene.soil.uppermost_materials())
       {
         const SoilMaterial &soil   = scene.soil.material(i);
-        const auto          youngs = soil.law_value("Youngs modulus");
+        const auto          youngs = soil.youngs_modulus;
         const double        ratio =
           youngs && above ? std::max(*youngs / *above, *above / *youngs) : 1.;
         if (ratio > largest)

@@ -253,7 +253,7 @@ namespace CaissonMPM
       const SoilMaterial &m = scene.soil.material(p.material);
       volumes[i] += p.volume;
       weights[i] += p.volume * scene.soil.unit_weight(m);
-      cohesions[i] += p.volume * m.shear_strength().value_or(0.);
+      cohesions[i] += p.volume * m.shear_strength.value_or(0.);
       tensions[i] = std::min(tensions[i], m.tension());
     };
     for (const unsigned int cell : scene.points.cells_with_points())

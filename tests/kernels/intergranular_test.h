@@ -129,7 +129,7 @@ stiffness_without(const Point           &at,
                   const Law::Parameters &p,
                   const double           nonlinear = 1.)
 {
-  return Law::stress_increment(Law::shifted(at.stress, p),
+  return Law::stress_increment(Law::shifted(at.stress, -p.shift),
                                Scalar(at.void_ratio),
                                D,
                                Scalar(nonlinear * norm(D)),

@@ -2,7 +2,10 @@
 //
 // The law NgiAdp in element tests: undrained triaxial compression and
 // extension, direct simple shear and plane strain against closed forms, and
-// shear in the plane against an independent integration.
+// shear in the plane against an independent integration. In plane strain the
+// strength of any direction is on an ellipse (E. H. Davis, J. T. Christian
+// (1971), Bearing capacity of anisotropic cohesive soil. J. Soil Mech. Found.
+// Div. ASCE 97, 753-769).
 #include <caisson_mpm/kernels/ngi_adp.h>
 
 #include <algorithm>
@@ -318,6 +321,27 @@ test_in_the_plane()
       }
 }
 
+void
+test_all_directions()
+{
+  std::printf("plane strain in 24 directions\n");
+  double worst = 0.;
+  for (int k = 0; k < 24; ++k)
+    {
+      Clay         clay(0., {A, D / A, P / A, .01, .02, .03, 400., .49, 1e9});
+      const double angle = 2. * k / 24. * std::acos(-1.);
+      for (int i = 0; i < 4000; ++i)
+        clay.strain(2e-5 * std::cos(angle),
+                    -2e-5 * std::cos(angle),
+                    0.,
+                    2e-5 * std::sin(angle));
+      const double h     = clay.tau() - .5 * (A - P),
+                   share = std::hypot(h / (.5 * (A + P)), clay.sigma.rz[0] / D);
+      raise(worst, std::fabs(share - 1.));
+    }
+  report("strength on the ellipse", worst, 1e-6);
+}
+
 /** A stress on the axis of K0, and one that is off it, which begins within a
  * larger surface. */
 void
@@ -459,6 +483,7 @@ main()
   test_plane_strain();
   test_unloading();
   test_in_the_plane();
+  test_all_directions();
   test_at_rest();
   test_tension();
   test_robust();

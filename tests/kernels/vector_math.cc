@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The functions of simd_math.h: exp, log, pow, roots, sin and cos of one and of
+// The functions of simd_math.h: exp, log, pow, roots and sin of one and of
 // eight lanes against <cmath>.
 #include <caisson_mpm/kernels/simd_math.h>
 
@@ -31,16 +31,13 @@ test_functions()
         raise(q, relative(quarter_power(Number(x), y), std::pow(x, y)));
     }
   for (double x = -1.57; x < 1.57; x += 0.00123)
-    {
-      raise(s, std::fabs(sin(Number(x))[n - 1] - std::sin(x)));
-      raise(s, std::fabs(cos(Number(x))[n - 1] - std::cos(x)));
-    }
+    raise(s, std::fabs(sin(Number(x))[n - 1] - std::sin(x)));
   std::printf("Functions of %d lanes\n", n);
   report("exp", e, 1e-15);
   report("log", l, 1e-15);
   report("pow", p, 1e-14);
   report("quarter_power", q, 1e-14);
-  report("sin, cos", s, 1e-15);
+  report("sin", s, 1e-15);
 }
 
 int

@@ -353,6 +353,8 @@ class Removed(ProgramTest):
         """And their entries, in any layer."""
         for entry, value, words in (
             ("Law", "Mohr-Coulomb with softening", "Set Mohr-Coulomb by density and"),
+            ("Law", "NorSand", "Set Mohr-Coulomb by density and stress, or hypo"),
+            ("Law", "modified Cam clay", "Set Mohr-Coulomb with the undrained"),
             ("Law", "Mohr-Coulomb with stiffness by stress", "expression in p"),
             (
                 "Law",

@@ -81,8 +81,7 @@ class Options(ProgramTest):
         self.assertIn("set Friction angle", section)
         self.assertIn("No entry has", self.run_program(BAD_INPUT, "--explain", "xyz"))
         for word, words in (
-            ("cam clay", ["set Law =", "NGI-ADP"]),
-            ("NorSand", ["set Law ="]),
+            ("density and stress", ["set Law =", "NGI-ADP"]),
             ("tension", ["See also Water/Suction control.", "Tension cut-off ="]),
             ("sealed", ["set Suction control ="]),
             ("Trapped", ["delays", "pump takes it"]),

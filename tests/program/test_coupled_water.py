@@ -129,37 +129,6 @@ class Column(ProgramTest):
         rise = history(path, "observations")[-1]["top"]
         self.assertAlmostEqual(rise / (0.35682 * 1e4 / 6.7308e6), 1, delta=0.05)
 
-    def test_cam_clay(self) -> None:
-        """Normally consolidated clay under its K0 stress takes a load while its water
-        leaves: e falls by lambda ln(180.767 / 120.767), far below the surface row,
-        which carries the surcharge."""
-        clay = {
-            "Law": "modified Cam clay",
-            "Slope of compression": 0.16,
-            "Slope of swelling": 0.032,
-            "Poisson ratio": 0.25,
-            "Critical friction angle": 24,
-            "Void ratio": 1.1,
-            "Solid density": 1000.001,
-            "K0": 0.7420592,
-            "Permeability": 1e-3,
-        }
-        entries: Entries = {f"Soil/Layer 1/{k}": v for k, v in clay.items()}
-        entries |= {
-            "Soil/Surcharge": 120767.191,
-            "Loads/Surrounding pressure": "6e4*min(t/5, 1)",
-            "Time/End time": 20,
-            "Output/Record interval": 2,
-            "Verification/Checks": "",
-            "Verification/Observations": "v = point volume_ratio at 0.05 -0.9; "
-            "p = point pore_pressure at 0.05 -0.9",
-        }
-        path = self.run_column("consolidation", entries)
-        rows = history(path, "observations")
-        self.assertGreater(max(row["p"] for row in rows), 1e4)
-        exact = 1 - 0.16 * math.log(180767.191 / 120767.191) / 2.1
-        self.assertAlmostEqual(rows[-1]["v"], exact, delta=2e-4)
-
     def test_points_in_cells_of_two_sizes(self) -> None:
         """The pressure of points is interpolated where cells become smaller, too."""
         scene = Path(user_scene("verification/consolidation")).read_text()

@@ -300,7 +300,7 @@ class Body(FramesTest):
         self.assertEqual(list(path.glob("body*")), [])
 
 
-OF_OTHER_SCENES = {"pore_pressure_Pa", "statev_1", "yield_stress_Pa"}
+OF_OTHER_SCENES = {"pore_pressure_Pa", "statev_1"}
 
 
 class Manual(FramesTest):

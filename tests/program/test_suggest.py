@@ -152,16 +152,14 @@ class Layers(SuggestTest):
                     self.assertEqual(float(value), float(default), name)
         path = self.made_directory() / "laws.prm"
         layers = (
-            "0: Law = modified Cam clay, lambda = 0.16, e = 1.1",
-            "2: Law = ngi-adp, suA = 30 kPa, K0 = 0.9",
-            "5: Law = NorSand, E = 60 MPa, Γ = 0.85, e = 0.7, OCR = 2",
+            "0: Law = ngi-adp, suA = 30 kPa, K0 = 0.9",
+            "5: phi = 33, E = 60 MPa, OCR = 2",
         )
         said = self.suggest(path, "--wall-friction", "15", layers=layers)
         self.assert_without_doubt(said)
         text = path.read_text(encoding="utf-8")
-        self.assertIn("set Slope of swelling = 0.04 # ASSUMED\n", text)
-        self.assertIn("set Slope of compression = 0.16\n", text)
-        self.assertIn("set State dilatancy = 3.5 # ASSUMED\n", text)
+        self.assertIn("set Direct shear strength ratio = 0.7 # ASSUMED\n", text)
+        self.assertIn("set Active strength = 30000\n", text)
 
     def test_undrained_clay_of_another_law(self) -> None:
         """NGI-ADP has adhesion alone, its tip too, and suction without a flow."""
@@ -176,30 +174,6 @@ class Layers(SuggestTest):
                 float(entries[f"Rigid body/Friction angle of the {place}"]), 0
             )
         self.assertEqual(entries["Soil/Layer 1/Adhesion factor of the walls"], "0.4")
-
-    def test_clay_by_effective_stress_keeps_its_water(self) -> None:
-        """With suction it is undrained; beside sand it is refused."""
-        cam_clay = "Law = modified Cam clay, e = 1.2"
-        for layers in ((f"0: {cam_clay}",), (f"0: {cam_clay}", "3: su = 30 kPa")):
-            path = self.made_directory(f"of_{len(layers)}") / "own.prm"
-            self.suggest(path, "--weight", "300kN", layers=layers)
-            entries = read_parameters([str(path)])
-            self.assertEqual(entries["Water/Level"], "undrained")
-            # it is warned of its water, but of no likely mistake
-            self.run_program(SUCCESS, path, "--validate", "--strict")
-        path = self.made_directory() / "own.prm"
-        layers = ("0: Dr = 60%", f"2: {cam_clay}")
-        text = self.suggest(path, "--weight", "300kN", status=1, layers=layers)
-        self.assertIn("layer 2: modified Cam clay beside sand", text)
-
-    def test_study_of_a_critical_angle(self) -> None:
-        """It changes the entry that the law has."""
-        path = self.made_directory()
-        words = ["--study", str(path / "s.toml")]
-        layers = ("0: Law = modified Cam clay, phi = 24, e = 1",)
-        self.suggest(path / "own.prm", *words, layers=layers)
-        text = (path / "s.toml").read_text("utf-8")
-        self.assertEqual(text.count('"Soil/Layer 1/Critical friction angle" = '), 5)
 
     def test_study_of_the_friction_angle(self) -> None:
         """It is read, and has five runs with angles of walls that follow."""

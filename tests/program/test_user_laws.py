@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Laws of the user as people have them: six components, other units and names, SDVINI;
-and what laws keep of a point: its stress without strain, its yield stress, STATEV."""
-import math
+and what laws keep of a point: its stress without strain, STATEV."""
 import unittest
 from pathlib import Path
 
@@ -165,16 +164,7 @@ class LawsOfOthers(UserMaterialTest):
         self.assert_words(["SDVINI", "replaces State at the start"], text)
 
 
-SINE = math.sin(math.radians(30))
-M = 6 * SINE / (3 - SINE)
 START = {"Time/End penetration": 0.51, "Verification/Checks": ""}
-CLAY = {
-    f"{LAYER}/Law": "modified Cam clay",
-    f"{LAYER}/Critical friction angle": 30,
-    f"{LAYER}/Yield stress ratio": 2,
-    f"{LAYER}/Void ratio": 1.1,
-    f"{LAYER}/K0": 0.6,
-}
 
 
 class StressOfUser(UserMaterialTest):
@@ -202,49 +192,7 @@ class StressOfUser(UserMaterialTest):
 
 
 class Frames(UserMaterialTest):
-    """Yield stress and STATEV of points in frames and exports."""
-
-    def test_yield_stress_of_clay(self) -> None:
-        """At rest p_c is twice that of the yield surface through the stress, below
-        the laws that have none; it goes through the export."""
-        path = self.directory()
-        more = {
-            "Soil/Number of layers": 2,
-            "Soil/Layer 2/Top depth": 2,
-            "Soil/Layer 2/Law": "linear elastic",
-        }
-        self.run_scene("jack", path, entries={**START, **CLAY, **more})
-        arrays = read(files(path, "points")[0])[1]
-        stress, found = arrays["stress_Pa"], arrays["yield_stress_Pa"]
-        p, q = -stress[:, :3].mean(axis=1), abs(stress[:, 1] - stress[:, 0])
-        clay = arrays["layer"] == 1
-        np.testing.assert_allclose(
-            found[clay], 2 * (p + q**2 / (M**2 * p))[clay], rtol=1e-4
-        )
-        self.assertTrue(np.isnan(found[~clay]).all() and (~clay).any())
-        last = read(files(path, "points")[-1])[1]
-        self.assertTrue((last["yield_stress_Pa"][clay[: len(last["layer"])]] > 0).all())
-
-    def test_yield_stress_of_sand(self) -> None:
-        """NorSand without coupling: p_i = p exp(q / (M p) - 1)."""
-        path = self.directory()
-        sand = {
-            f"{LAYER}/Law": "NorSand",
-            f"{LAYER}/Critical friction angle": 30,
-            f"{LAYER}/Volumetric coupling": 0,
-            f"{LAYER}/Yield stress ratio": 1.5,
-            f"{LAYER}/Void ratio": 0.7,
-            f"{LAYER}/K0": 0.6,
-        }
-        self.run_scene("jack", path, entries={**START, **sand})
-        arrays = read(files(path, "points")[0])[1]
-        stress = arrays["stress_Pa"]
-        p, q = -stress[:, :3].mean(axis=1), abs(stress[:, 1] - stress[:, 0])
-        image = 1.5 * p * np.exp(q / (M * p) - 1)
-        deep = p > 2e3  # above the smallest stress of stiffness
-        np.testing.assert_allclose(
-            arrays["yield_stress_Pa"][deep], image[deep], rtol=1e-4
-        )
+    """STATEV of points in frames and exports."""
 
     def test_state_of_a_user_material(self) -> None:
         """STATEV is in the frames, not a number in other layers, and exported."""

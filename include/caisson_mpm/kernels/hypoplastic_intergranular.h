@@ -110,10 +110,7 @@ namespace CaissonMPM
                 break;
               share = next_share(share, substep.error, done);
             }
-          sigma                 = {state.stress.rr + p.shift,
-                                   state.stress.zz + p.shift,
-                                   state.stress.tt + p.shift,
-                                   state.stress.rz};
+          sigma                 = shifted(state.stress, p.shift);
           law_state.variable[0] = state.memory.rr;
           law_state.variable[1] = state.memory.zz;
           law_state.variable[2] = state.memory.tt;
@@ -139,7 +136,7 @@ namespace CaissonMPM
                        const LawState<Number>    &law_state,
                        const Parameters          &p)
         {
-          State<Number> state{Hypoplasticity::shifted(sigma, p),
+          State<Number> state{shifted(sigma, -p.shift),
                               law_state.void_ratio,
                               {law_state.variable[0],
                                law_state.variable[1],

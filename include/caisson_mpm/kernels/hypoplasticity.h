@@ -62,9 +62,9 @@ namespace CaissonMPM
                               is_packed = true, has_loosest_state = true,
                               knows_what_it_bears = true;
 
-        struct Parameters
+        struct Parameters : LawNumbers
         {
-          double friction_angle, hardness, n, e_d0, e_c0, e_i0, alpha, beta;
+          double hardness, n, e_d0, e_c0, e_i0, alpha, beta;
 
           /** p_t. Units: Pa. */
           double shift;
@@ -89,6 +89,8 @@ namespace CaissonMPM
           void
           derive()
           {
+            densest = e_d0;
+            loosest = e_c0;
             sin_phi = __builtin_sin(friction_angle * radians_per_degree);
             a       = __builtin_sqrt(3.) * (3. - sin_phi) /
                 (2. * __builtin_sqrt(2.) * sin_phi);
@@ -225,7 +227,8 @@ namespace CaissonMPM
               const Number               void_ratio,
               const Parameters          &p)
         {
-          const Factors<Number> f = factors(shifted(sigma, p), void_ratio, p);
+          const Factors<Number> f =
+            factors(shifted(sigma, -p.shift), void_ratio, p);
           const StressState<Number> &s = f.s;
           // L^-1 : N = a / F (s + dev s - share s)
           const double third = 1. / 3., F = f.F[0], ss = product(s, s)[0],
@@ -273,15 +276,13 @@ namespace CaissonMPM
           return volume > room * (1. + loosest_void_ratio(pressure, p));
         }
 
-        /** The stress with which the equations are evaluated. */
+        /** A stress with another mean: less p_t, it is the one with which the
+         * equations are evaluated. */
         template <typename Number>
         [[gnu::always_inline]] static inline StressState<Number>
-        shifted(const StressState<Number> &sigma, const Parameters &p)
+        shifted(const StressState<Number> &sigma, const double by)
         {
-          return {sigma.rr - p.shift,
-                  sigma.zz - p.shift,
-                  sigma.tt - p.shift,
-                  sigma.rz};
+          return {sigma.rr + by, sigma.zz + by, sigma.tt + by, sigma.rz};
         }
 
         /** The pressure of a shifted stress, at least p_t. */
@@ -540,7 +541,7 @@ namespace CaissonMPM
                                      const Number               void_ratio,
                                      const Parameters          &p)
       {
-        StressState<Number> T = shifted(stress, p);
+        StressState<Number> T = shifted(stress, -p.shift);
         hold_in_bounds(T, p);
         const Factors<Number> f    = factors(T, void_ratio, p);
         const Number          half = .5 * (f.s.rr - f.s.zz);

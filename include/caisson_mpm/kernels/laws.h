@@ -10,11 +10,9 @@
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
 #include <caisson_mpm/kernels/material.h>
-#include <caisson_mpm/kernels/modified_cam_clay.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/ngi_adp.h>
-#include <caisson_mpm/kernels/nor_sand.h>
 #include <caisson_mpm/kernels/user_material.h>
 
 namespace CaissonMPM
@@ -32,9 +30,7 @@ namespace CaissonMPM
                            MohrCoulomb,
                            HypoplasticIntergranular,
                            MohrCoulombDensity,
-                           ModifiedCamClay,
                            NgiAdp,
-                           NorSand,
                            UserMaterial>;
 
       template <typename Law, typename... All>
@@ -83,7 +79,8 @@ namespace CaissonMPM
                       "enlarge n_state_variables (material.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = Law::volume_in_shear(parameters);
-        material.is_frictionless = Law::is_frictionless(parameters);
+        material.is_frictionless =
+          parameters.shear_strength >= 0. && !(parameters.friction_angle > 0.);
         material.has_loosest_state =
           Law::has_loosest_state && Law::needs_void_ratio(parameters);
         __builtin_memcpy(material.parameters, &parameters, sizeof(parameters));
@@ -97,9 +94,10 @@ namespace CaissonMPM
         const char *name;
         int         n_entries;
         bool        stiffness_varies;
-        bool        has_yield_stress;
 
         const Entry &(*entry)(const int i);
+
+        LawNumbers (*numbers)(const double *values);
 
         /** Write the law and its parameters into the material. */
         void (*set)(Material &, const double *values);
@@ -110,6 +108,13 @@ namespace CaissonMPM
       entry_of(const int i)
       {
         return Law::entries[i].entry;
+      }
+
+      template <typename Law>
+      inline LawNumbers
+      numbers_of(const double *values)
+      {
+        return read_parameters<Law>(values);
       }
 
       template <typename Law>
@@ -126,8 +131,8 @@ namespace CaissonMPM
         return {Law::name,
                 n_entries<Law>,
                 Law::stiffness_varies,
-                Law::has_yield_stress,
                 &entry_of<Law>,
+                &numbers_of<Law>,
                 &set_values<Law>};
       }
 

@@ -69,6 +69,22 @@ namespace CaissonMPM
 
       constexpr double radians_per_degree = 3.14159265358979323846 / 180.;
 
+      constexpr double no_number = __builtin_nan("");
+
+      /**
+       * What reports, reviews and walls ask of a law: its parameters begin with
+       * these, and entries or derive() set what the law has. The friction angle
+       * is the peak or the critical one, the strength that at no pressure, and
+       * the void ratios are those of the densest and the loosest packing.
+       */
+      struct LawNumbers
+      {
+        double youngs_modulus = no_number, poisson_ratio = no_number;
+        double friction_angle = no_number, dilatancy_angle = 0.; // degrees
+        double shear_strength = no_number, tension_cutoff = 0.;  // Pa
+        double densest = no_number, loosest = no_number;
+      };
+
       /** What check() of a law may hold its entries against. */
       struct LawContext
       {
@@ -197,14 +213,6 @@ namespace CaissonMPM
           0.,
           0.,
           19.};
-        constexpr Entry yield_stress_ratio = {
-          "Yield stress ratio",
-          "",
-          "The size of the yield surface of a point at the start over that of "
-          "the one through its stress: 1 in normally consolidated soil.",
-          1.,
-          1.,
-          1e3};
         constexpr Entry reference_stress = {
           "Reference stress",
           "Pa",
@@ -249,10 +257,6 @@ namespace CaissonMPM
          * the second without a division, for each step: loosest_state.h. */
         static constexpr bool has_loosest_state = false;
 
-        /** Has Number yield_stress(stress, void_ratio, variable, parameters),
-         * in Pa, of the first variable of the point: what frames call so. */
-        static constexpr bool has_yield_stress = false;
-
         /** Has bool bears(stress, void_ratio, parameters), with the types of
          * p_wave_modulus(): whether its strength holds a stress at rest. A law
          * without it bears what an update without strain leaves as it is. */
@@ -281,14 +285,6 @@ namespace CaissonMPM
           return VolumeInShear::by_state;
         }
 
-        /** Whether the strength is the same at all pressures. */
-        template <typename Parameters>
-        static bool
-        is_frictionless(const Parameters &)
-        {
-          return false;
-        }
-
         /** Whether a law with uses_void_ratio reads it with these parameters.
          */
         template <typename Parameters>
@@ -315,9 +311,8 @@ namespace CaissonMPM
 
       /** The elasticity of the law of Hooke: Lame's constants, the bulk modulus
        * (Pa), and nu / (1 - nu), the earth pressure at rest. */
-      struct Elasticity
+      struct Elasticity : LawNumbers
       {
-        double youngs_modulus, poisson_ratio; // entries
         double lambda, mu, bulk, oedometric;
 
         void

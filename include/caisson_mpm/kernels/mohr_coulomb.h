@@ -24,15 +24,15 @@ namespace CaissonMPM
 
         struct Parameters : Elasticity
         {
-          double friction_angle, dilatancy_angle = 0.; // degrees
-          double cohesion = 0., tension_cutoff = 0.;   // Pa
-          double largest_void_ratio = no_limit;        // of dilation
+          double cohesion           = 0.;       // Pa
+          double largest_void_ratio = no_limit; // of dilation
           MohrCoulombStrength<double> strength;
 
           void
           derive()
           {
             Elasticity::derive();
+            shear_strength   = cohesion;
             const double phi = friction_angle * radians_per_degree,
                          psi = dilatancy_angle * radians_per_degree;
             strength         = MohrCoulombStrength<double>::make(*this,
@@ -58,12 +58,6 @@ namespace CaissonMPM
         {
           return p.strength.sin_psi > 0. ? VolumeInShear::gained :
                                            VolumeInShear::kept;
-        }
-
-        static bool
-        is_frictionless(const Parameters &p)
-        {
-          return p.strength.sin_phi == 0.;
         }
 
         /** Whether update() reads the void ratio. */

@@ -13,8 +13,8 @@
 // e_c = e_max - (e_max - e_min) / (Q - ln(max(p, p_s) / kPa)). Looser sand has
 // the strength of that state, and shears at constant volume.
 //
-// Young's modulus is that of stiffness_by_stress.h, and follows the density too
-// if e_r, "Reference void ratio", is given (Hardin & Richart 1963):
+// Young's modulus follows the stress (Janbu 1963), and the density too if e_r,
+// "Reference void ratio", is given (Hardin & Richart 1963):
 //
 //   E = E_ref (max(p, p_min) / p_ref)^m F(e) / F(e_r),
 //   F = (2.17 - e)^2 / (1 + e).
@@ -32,11 +32,13 @@
 //     Geotechnique 37, 219-226. doi:10.1680/geot.1987.37.2.219
 //   B.O. Hardin, F.E. Richart (1963), Elastic wave velocities in granular
 //     soils. J. Soil Mech. Found. Div. ASCE 89(1), 33-65.
+//   N. Janbu (1963), Soil compressibility as determined by oedometer and
+//     triaxial tests. Proc. ECSMFE, Wiesbaden, vol. 1, 19-25.
 #ifndef caisson_mpm_kernels_mohr_coulomb_density_h
 #define caisson_mpm_kernels_mohr_coulomb_density_h
 
 #include <caisson_mpm/kernels/mohr_coulomb.h>
-#include <caisson_mpm/kernels/stiffness_by_stress.h>
+#include <caisson_mpm/kernels/simd_math.h>
 
 namespace CaissonMPM
 {
@@ -56,10 +58,12 @@ namespace CaissonMPM
 
         /** Those of the critical state, with the elasticity at the reference
          * stress: the largest void ratio is e_max. */
-        struct Parameters : MohrCoulomb::Parameters, StiffnessByStress
+        struct Parameters : MohrCoulomb::Parameters
         {
           double minimum_void_ratio, bolton_q, degrees_per_index; // entries
           double smallest_stress, reference_void_ratio;           // entries
+          double reference_stress, stiffness_exponent;            // entries
+          double smallest_stress_of_stiffness; // an entry, Pa
 
           double phi_c;           // rad
           double critical_volume; // 1 + e_c below p_s
@@ -67,12 +71,16 @@ namespace CaissonMPM
           double ln_crushing;     // of 1 kPa exp(Q), in Pa
           double angle_per_index; // rad
           double per_reference;   // 1 / F(e_r); 0: density has no influence
+          double inverse_stress;  // 1 / p_ref
+          bool   by_roots;        // 4 m is a whole number
 
           void
           derive()
           {
             MohrCoulomb::Parameters::derive();
-            StiffnessByStress::derive();
+            shear_strength          = no_number;
+            densest                 = minimum_void_ratio;
+            loosest                 = largest_void_ratio;
             constexpr double ln_kPa = 6.907755278982137; // ln 1000
             const double     e_max  = largest_void_ratio,
                          range      = e_max - minimum_void_ratio;
@@ -86,6 +94,8 @@ namespace CaissonMPM
             per_reference   = reference_void_ratio > 0. ?
                                 1. / hardin(Lanes<1>(reference_void_ratio))[0] :
                                 0.;
+            inverse_stress  = 1. / reference_stress;
+            by_roots        = has_quarter_power(stiffness_exponent);
           }
         };
 
@@ -197,7 +207,13 @@ namespace CaissonMPM
           if (p.smallest_stress < 1e3)
             return "Smallest stress of strength is usually 1.5e5 Pa: check its "
                    "unit";
-          return p.StiffnessByStress::warning();
+          if (p.reference_stress < 1e4 || p.reference_stress > 1e6)
+            return "Reference stress is usually 1e5 Pa: check its unit, and "
+                   "that Youngs modulus is that of this stress";
+          if (p.smallest_stress_of_stiffness >= p.reference_stress)
+            return "Smallest stress of stiffness is not below Reference "
+                   "stress, so that the stiffness hardly depends on the stress";
+          return nullptr;
         }
 
         template <typename Number>
@@ -309,7 +325,12 @@ namespace CaissonMPM
                    const Number               void_ratio,
                    const Parameters          &p)
         {
-          const Number by_stress = p.stiffening(s);
+          const Number ratio =
+            Number(p.inverse_stress) *
+            max(pressure(s), Number(p.smallest_stress_of_stiffness));
+          const Number by_stress =
+            p.by_roots ? quarter_power(ratio, p.stiffness_exponent) :
+                         pow(ratio, p.stiffness_exponent);
           return p.per_reference > 0. ?
                    Number(p.per_reference) * hardin(void_ratio) * by_stress :
                    by_stress;

@@ -62,7 +62,7 @@ namespace CaissonMPM
         {
           double active, direct_ratio, passive_ratio; // entries: s_A in Pa
           double active_failure, direct_failure, passive_failure; // entries
-          double modulus_ratio, tension_cutoff;                   // entries
+          double modulus_ratio;                                   // an entry
 
           MohrCoulombStrength<double> cutoff; // the tension cut-off alone
           double                      center; // (s_A - s_P) / 2
@@ -79,6 +79,7 @@ namespace CaissonMPM
                          n = .5 * (A + P) / D;
             youngs_modulus = 2. * G * (1. + poisson_ratio);
             Elasticity::derive();
+            shear_strength           = D;
             constexpr double no_cone = MohrCoulombStrength<double>::no_cutoff;
             cutoff                   = MohrCoulombStrength<double>::make(
               *this, 0., 1., 0., no_cone, tension_cutoff);
@@ -180,12 +181,6 @@ namespace CaissonMPM
         volume_in_shear(const Parameters &)
         {
           return VolumeInShear::kept;
-        }
-
-        static bool
-        is_frictionless(const Parameters & /*p*/)
-        {
-          return true;
         }
 
         /** The default where it is a total stress at rest. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// exp, log, pow, sine and cosine on all lanes at once, by the same polynomials
+// exp, log, pow and sine on all lanes at once, by the same polynomials
 // on every instruction set. Relative errors are a few units of round-off where
 // the result is a normal number; the test is tests/kernels/vector_math.cc.
 //
@@ -10,8 +10,7 @@
 //   log2 m = (2 / ln 2) artanh(f),   f = (m - 1) / (m + 1).
 //
 // 2^t and artanh(f) / f are polynomials that interpolate them in Chebyshev's
-// points, with relative errors below 2e-17; sin and cos are summed by their
-// power series.
+// points, with relative errors below 2e-17; sin is summed by its power series.
 #ifndef caisson_mpm_kernels_simd_math_h
 #define caisson_mpm_kernels_simd_math_h
 
@@ -219,25 +218,6 @@ namespace CaissonMPM
                                             -1. / 121645100408832000.,
                                             1. / 51090942171709440000.};
         return x * polynomial(series, x * x);
-      }
-
-      /** For |x| <= pi / 2. */
-      template <int n>
-      [[gnu::always_inline]] inline Lanes<n>
-      cos(const Lanes<n> x)
-      {
-        static constexpr double series[] = {1.,
-                                            -1. / 2.,
-                                            1. / 24.,
-                                            -1. / 720.,
-                                            1. / 40320.,
-                                            -1. / 3628800.,
-                                            1. / 479001600.,
-                                            -1. / 87178291200.,
-                                            1. / 20922789888000.,
-                                            -1. / 6402373705728000.,
-                                            1. / 2432902008176640000.};
-        return polynomial(series, x * x);
       }
     } // namespace CAISSON_KERNEL_ISA
   }   // namespace Kernels

@@ -98,11 +98,6 @@ namespace CaissonMPM
           return {x.a > y.a, x.b > y.b};
         }
         [[gnu::always_inline]] friend inline Mask
-        operator<=(const Twice x, const Twice y)
-        {
-          return {x.a <= y.a, x.b <= y.b};
-        }
-        [[gnu::always_inline]] friend inline Mask
         operator>=(const Twice x, const Twice y)
         {
           return {x.a >= y.a, x.b >= y.b};
@@ -126,11 +121,6 @@ namespace CaissonMPM
         operator+=(const Twice y)
         {
           return *this = *this + y;
-        }
-        [[gnu::always_inline]] inline Twice &
-        operator-=(const Twice y)
-        {
-          return *this = *this - y;
         }
         [[gnu::always_inline]] friend inline Twice
         abs(const Twice x)

@@ -25,10 +25,8 @@ namespace CaissonMPM
         static constexpr const char *name      = "user material";
         static constexpr bool stiffness_varies = true, is_external = true;
 
-        struct Parameters
+        struct Parameters : LawNumbers
         {
-          double friction_angle;
-
           // known when the library has been loaded
           double  modulus = 0.; // lambda + 2 mu at the start, Pa
           UserLaw update  = nullptr;

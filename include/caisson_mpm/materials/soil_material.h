@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace CaissonMPM
@@ -33,6 +33,14 @@ namespace CaissonMPM
     int                 law = 0;    // its number in Kernels::law_table
     std::vector<double> law_values; // in the order of its entries
 
+    // what the law answers, as far as it has them, when set_law_values() has
+    // been called: Pa, degrees. The friction angle is the peak or the critical
+    // one; the strength, on which adhesion and the design methods for clay are
+    // based, is the cohesion or that in direct simple shear
+    std::optional<double> youngs_modulus, poisson_ratio, friction_angle,
+      shear_strength, densest_void_ratio, loosest_void_ratio;
+    double dilatancy_angle = 0., tension_cutoff = 0.;
+
     double added_weight           = 0.; // that the soil carries, N/m3
     double porosity               = 0.4;
     double solid_density          = 2500.; // kg/m3
@@ -49,11 +57,14 @@ namespace CaissonMPM
     // of a user material; of other laws none
     std::shared_ptr<UmatLaw> umat;
     UmatStiffness            umat_stiffness; // at the start
-    Kernels::VolumeInShear   volume_in_shear = Kernels::VolumeInShear::by_state;
 
     /** "Soil/Layer k", with k from 1. */
     std::string
     section() const;
+
+    /** Take the values of the entries of the law, in their order. */
+    void
+    set_law_values(std::vector<double> values);
 
     /** Throws BadInput where the numbers contradict each other, or the largest
      * mean stress at the start. Units: Pa. */
@@ -93,11 +104,6 @@ namespace CaissonMPM
     bool
     is_elastic_until_it_yields() const;
 
-    /** The friction angle of the law (peak, critical) if it has one. Units:
-     * degrees. */
-    std::optional<double>
-    friction_angle() const;
-
     /**
      * How much faster than the body soil of a constant dilatancy angle moves
      * where it fails beneath it: exp(pi/2 tan psi), the ratio of the speeds at
@@ -107,19 +113,13 @@ namespace CaissonMPM
     double
     speed_of_failure() const;
 
-    /** The names of all entries of the law, and their units. */
-    std::vector<std::pair<std::string, std::string>>
+    /** The entries of the law: names, units and values. */
+    std::vector<std::tuple<std::string, std::string, double>>
     law_entries() const;
 
     /** Return the value of an entry if the law has it. */
     std::optional<double>
     law_value(const std::string &entry) const;
-
-    /** Return the strength on which adhesion and the design methods for clay
-     * are based: the cohesion or, where strength is anisotropic, that in direct
-     * simple shear. Units: Pa. */
-    std::optional<double>
-    shear_strength() const;
 
     /** Whether the strength is that of undrained soil by total stress, which
      * depends on no mean stress: water does not flow through it. */
@@ -166,18 +166,6 @@ namespace CaissonMPM
   p_wave_modulus(const Kernels::Material &material,
                  const Stress            &stress,
                  const double             void_ratio);
-
-  /** Whether points of a material have a yield stress. */
-  bool
-  has_yield_stress(const Kernels::Material &material);
-
-  /** The yield stress of a point: p_c of modified Cam clay, p_i of NorSand.
-   * @p state: the variables of its law. Units: Pa. */
-  double
-  yield_stress_of(const Kernels::Material &material,
-                  const Stress            &stress,
-                  const double             void_ratio,
-                  const StateVariables    &state);
 
   /** The void ratio of the soil itself, if that of a point may include a gap.
    */

@@ -11,10 +11,9 @@
 // is the same everywhere.
 // The void ratio follows from the initial porosity n of the point's layer and
 // its change of volume J: e = (1 + e0) J - 1 with e0 = n / (1 - n).
-// yield_stress is p_c of modified Cam clay or p_i of NorSand, and statev_1 and
-// so on are STATEV of user materials, where the soil has such laws.
-// whole_volume (m3) is the volume of a point for the whole circumference, in
-// plane strain per meter.
+// statev_1 and so on are STATEV of user materials, where the soil has such
+// laws. whole_volume (m3) is the volume of a point for the whole circumference,
+// in plane strain per meter.
 //
 // A vector has the components r, z and 0. A symmetric tensor has six: rr, zz,
 // tt (around the axis), rz, 0 and 0, in the order of VTK. The vertical

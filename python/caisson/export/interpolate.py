@@ -20,8 +20,6 @@ FEWEST = 8
 POOR = 0.1  # spread of the neighbors in one direction over that in the other
 FARTHEST = 1.5  # of their mean from the place, over their spread
 AT_ONCE = 4000  # places
-# the field that grows with depth as the stress does: of the others it is the mean
-LINEAR = "yield_stress_Pa"
 
 
 @dataclass
@@ -163,14 +161,10 @@ def interpolate_some(state: State, near: Neighbors) -> Values:
     slope = np.linalg.pinv(moments) @ np.einsum("nk,nki,nkm->nim", weight, step, away)
     rest = away - np.einsum("nki,nim->nkm", step, slope)
     scatter = np.sqrt(np.einsum("nk,nkm->nm", weight, rest**2))
-    fields = {}
-    for name, values in state.fields.items():
-        of_points = values[near.index]
-        fields[name] = mean_of(of_points, weight)
-        if name == LINEAR:
-            plane = np.einsum("nk,nk->n", shares, np.nan_to_num(of_points))
-            known = (np.isfinite(of_points) | (near.weight == 0)).all(axis=1)
-            fields[name] = np.where(known, np.maximum(plane, 0.0), fields[name])
+    fields = {
+        name: mean_of(values[near.index], weight)
+        for name, values in state.fields.items()
+    }
     return Values(at[:, :4], scatter, at[:, 4], at[:, 5:], fields, near.layer)
 
 

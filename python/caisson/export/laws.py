@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What exports need of the laws of a run: Young's modulus. A layer is an entry of the
 list "layers" in run.json."""
+from math import nan
 from typing import Any
 
-import numpy as np
-
-CAM_CLAY, NGI_ADP = "modified Cam clay", "NGI-ADP"
+NGI_ADP = "NGI-ADP"
 POISSON = 0.3  # of soil whose law does not say it
 
 
@@ -20,25 +19,15 @@ def poisson_ratio(layer: dict[str, Any]) -> float:
     return float(known)
 
 
-def youngs_modulus(
-    layer: dict[str, Any], pressure: np.ndarray, void_ratio: np.ndarray
-) -> np.ndarray:
-    """Return Young's modulus (Pa) at mean effective stresses [n] (Pa, compression
-    positive) and void ratios [n]: nan where the law has none.
-
-    NGI-ADP has G = (G_ur / s_uA) s_uA, modified Cam clay K = (1 + e) p / kappa, and a
-    user material the p-wave modulus of DDSDDE at the start.
-    """
+def youngs_modulus(layer: dict[str, Any]) -> float:
+    """Return Young's modulus (Pa), nan where the law has none. NGI-ADP has
+    G = (G_ur / s_uA) s_uA, and a user material the p-wave modulus of DDSDDE at the
+    start."""
     entries, nu = entries_of(layer), poisson_ratio(layer)
-    constant = float(layer.get("youngs_modulus_Pa", np.nan))
     if layer.get("law") == NGI_ADP:
         ratio = entries["Unloading shear modulus ratio"]
-        constant = 2 * (1 + nu) * ratio * entries["Active strength"]
-    elif "p_wave_modulus_Pa" in layer:
+        return 2 * (1 + nu) * ratio * entries["Active strength"]
+    if "p_wave_modulus_Pa" in layer:
         ratio = (1 + nu) * (1 - 2 * nu) / (1 - nu)
-        constant = ratio * float(layer["p_wave_modulus_Pa"])
-    elif layer.get("law") == CAM_CLAY:
-        least = entries["Smallest stress of stiffness"]
-        bulk = (1 + void_ratio) * np.maximum(pressure, least)
-        return 3 * (1 - 2 * nu) * bulk / entries["Slope of swelling"]
-    return np.full(len(pressure), constant)
+        return ratio * float(layer["p_wave_modulus_Pa"])
+    return float(layer.get("youngs_modulus_Pa", nan))

@@ -198,20 +198,14 @@ def speed_of_tolerance(run: LoadedRun) -> float:
 def shear_modulus(layers: list[dict[str, Any]], depth: float) -> float:
     """Return the shear modulus (Pa) of the softest layer above a depth (m); nan where
     the law of one has none. Materials of one layer, whose numbers change with depth,
-    count by their thickness, each with the stress at rest in its middle."""
+    count by their thickness."""
     bottoms = [*(float(layer["top_depth_m"]) for layer in layers[1:]), depth]
-    above, sums = 0.0, dict[int, tuple[float, float]]()
+    sums = dict[int, tuple[float, float]]()
     for layer, bottom in zip(layers, bottoms):
         height = bottom - float(layer["top_depth_m"])
-        weight = float(layer["submerged_unit_weight_N_m3"])
-        mean = (1 + 2 * float(layer.get("K0", 1))) / 3
-        pressure = np.array([mean * (above + weight * height / 2)])
-        n = float(layer.get("porosity", 0))
-        modulus = youngs_modulus(layer, pressure, np.array([n / (1 - n)]))[0]
-        modulus /= 2 * (1 + poisson_ratio(layer))
+        modulus = youngs_modulus(layer) / (2 * (1 + poisson_ratio(layer)))
         total, part = sums.get(layer.get("layer", 1), (0.0, 0.0))
         sums[layer.get("layer", 1)] = total + height * modulus, part + height
-        above += weight * height
     return float(np.min([total / part for total, part in sums.values()]))
 
 

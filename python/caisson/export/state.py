@@ -176,12 +176,7 @@ def layers_of(
     void = data["void_ratio"].astype(float) if "void_ratio" in data else n / (1 - n)
     with np.errstate(invalid="ignore"):
         ratio = np.where(void > 0, (1 + n / (1 - n)) / (1 + void), 1.0)
-    pressure = -stress[:, :3].mean(axis=1)
-    e = np.where(np.isfinite(void), void, n / (1 - n))
-    given = np.empty(len(material))
-    for i, one in enumerate(known):
-        at = material == i
-        given[at] = youngs_modulus(one, pressure[at], e[at])
+    given = np.array(list(map(youngs_modulus, known)))[material]
     assumed = np.isnan(given)
     modulus = np.where(assumed, STIFFNESS * np.linalg.norm(stress, axis=1), given)
     which, index = np.unique(numbers, return_inverse=True)

@@ -8,10 +8,9 @@ the error that you want, and what it will cost.
 
 Numbers without a unit are in SI units, and angles in degrees; others have theirs: 40mm,
 "45 MPa", 2500kN, 85%. The entries of a layer have symbols, too: phi, c, E, nu, psi,
-gamma (unit weight), su, K0, Dr, OCR, k (permeability), e and n; NorSand, NGI-ADP and
-modified Cam clay have theirs, such as chi, suA and lambda. With --weight the
-caisson sinks by its weight and is then drawn in by suction; without, it is jacked. In
-place of layers a cone test may be given,
+gamma (unit weight), su, K0, Dr, OCR, k (permeability), e and n; NGI-ADP has its own,
+such as suA. With --weight the caisson sinks by its weight and is then drawn in by
+suction; without, it is jacked. In place of layers a cone test may be given,
 
     caisson suggest --diameter 10 --skirt 8 --wall 40mm --cpt FILE.csv own.prm
 
@@ -46,7 +45,7 @@ from caisson.paths import INSTALLED
 from caisson.runner import RunError, query
 from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
-from caisson.suggest.soil import CAM_CLAY, layers_of
+from caisson.suggest.soil import layers_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -187,7 +186,7 @@ def refuse_quick_clay(layers: Sequence[Layer]) -> None:
 def with_permeability(layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers with a permeability, which follows the density in sand by
     density. Raises SuggestError where only some layers of sand have one."""
-    tight = [walls.is_clay(x) or x.value("Law") == CAM_CLAY for x in layers]
+    tight = list(map(walls.is_clay, layers))
     sands = [bool(x.value("Permeability")) for x, t in zip(layers, tight) if not t]
     if any(sands) and not all(sands):
         raise SuggestError(
@@ -212,28 +211,17 @@ def flow_of(
     options: argparse.Namespace, layers: Sequence[Layer], soil: Sequence[Layer]
 ) -> dict[str, Any]:
     """Return what the template takes of weight and water. Where all of the soil is
-    undrained clay no water flows, and clay with a law of effective stress keeps its
-    water. soil: the layers with all of their entries."""
+    undrained clay no water flows. soil: the layers with all of their entries."""
     if not options.weight:
         return {"weight": None, "layers": soil}
     clays = list(map(walls.is_clay, layers))
-    of_effective_stress = [layer.value("Law") == CAM_CLAY for layer in layers]
-    if all(c or e for c, e in zip(clays, of_effective_stress)):
-        level = "undrained" if any(of_effective_stress) else "drained"
-    else:
+    if not all(clays):
         refuse_quick_clay(reached(options, layers))
         soil = with_permeability(soil)
-        level = "seepage"
-        if any(of_effective_stress):
-            raise SuggestError(
-                f"layer {1 + of_effective_stress.index(True)}: {CAM_CLAY} beside sand"
-                " is for a coupled run, which takes a slower penetration. Give the"
-                " clay as su, or write the scene with Water/Level = coupled by hand"
-            )
     return {
         "weight": options.weight,
         "water_depth": options.water_depth,
-        "water_level": level,
+        "seeps": not all(clays),
         "has_clay": any(clays),
         "layers": soil,
     }
@@ -311,7 +299,7 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
                 entries |= strength_after(f"Soil/Layer {i}", layer, factor)
                 continue
             change_of = density_after if by_density else angle_after
-            name = density_law.DENSITY if by_density else walls.angle_entry(layer)
+            name = density_law.DENSITY if by_density else "Friction angle"
             numbers.append(change_of(layer, change))
             entries[f"Soil/Layer {i}/{name}"] = numbers[-1]
         if follows:

@@ -47,17 +47,9 @@ WRITTEN = {
     "Friction angle of the walls": "delta",
     "Adhesion factor of the walls": "alpha",
 }
-ANGLES = "phi_c phi phi' φ"  # where it is the only friction angle of a law
-YIELD_RATIO = "Yield stress ratio"
-CAM_CLAY, NGI_ADP = "modified Cam clay", "NGI-ADP"
+NGI_ADP = "NGI-ADP"
 # of other laws: how their entries are written, and what is assumed; "" is needed
 LAWS = {
-    CAM_CLAY: {
-        "Slope of compression": ("lambda λ", "0.2"),
-        "Slope of swelling": ("kappa κ", "0.04"),
-        names.CRITICAL_ANGLE: (ANGLES, "30"),
-        YIELD_RATIO: ("R YSR", "1"),
-    },
     NGI_ADP: {
         "Active strength": ("suA s_uA", ""),
         "Direct shear strength ratio": ("suD/suA suDSS/suA sD/suA", "0.7"),
@@ -68,20 +60,9 @@ LAWS = {
         "Unloading shear modulus ratio": ("Gur/suA", "500"),
         "Poisson ratio": ("nu ν", clay.POISSON),
     },
-    names.NOR_SAND: {
-        "Critical void ratio at 1 kPa": ("Gamma Γ", "0.816"),
-        "Slope of the critical state": ("lambda λ", "0.0135"),
-        "Volumetric coupling": ("N", "0.3"),
-        "State dilatancy": ("chi χ", "3.5"),
-        "Plastic hardening": ("H", "100"),
-        names.CRITICAL_ANGLE: (ANGLES, "30"),
-        YIELD_RATIO: ("R YSR", "1"),
-        "Youngs modulus": ("E", ""),
-        "Porosity": ("n", ""),
-    },
 }
 # their strength, in place of phi, psi, c and su
-INSTEAD = dict(zip(LAWS, ("phi_c", "suA and suD/suA", "phi_c; e in place of psi")))
+INSTEAD = {NGI_ADP: "suA and suD/suA"}
 OF_EACH = ("Poisson ratio", "Porosity", "Solid density")  # are assumed there, too
 STRENGTH, WEIGHT = "su", "gamma"  # of undrained clay, and the unit weight
 DERIVED = {
@@ -152,8 +133,6 @@ def name_of(word: str, known: Collection[str], law: str) -> str:
     )
     if law not in LAWS and (near := difflib.get_close_matches(law, LAWS)):
         hint += f"; the law may be {near[0]}"
-    elif word == "M" and law in (CAM_CLAY, names.NOR_SAND):
-        hint = "; M is 6 sin phi_c / (3 - sin phi_c): give phi_c"
     raise SuggestError(f"--layer: a layer of {law} has no entry {word!r}{hint}")
 
 
@@ -444,12 +423,9 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
     assumed = {n: v for n, v in usual.items() if n not in known}
     if missing := [name for name, value in assumed.items() if not value]:
         or_sand = f'; or, of sand, "{sand.SAND} = dense"' if is_plain else ""
-        needed = " and ".join(missing).replace("Porosity", "Void ratio (e)")
+        needed = " and ".join(missing)
         raise SuggestError(f"--layer {text!r} needs {needed}{or_sand}")
     remarks = {"Law": "", "K0": f"{ASSUMPTION}: that of the law"}
-    if YIELD_RATIO in assumed and (ratio := given.get("Overconsolidation ratio")):
-        assumed[YIELD_RATIO] = ratio
-        remarks[YIELD_RATIO] = f"{ASSUMPTION}: Overconsolidation ratio"
     if not {"K0", "Overconsolidation ratio"} & known:
         assumed["K0"] = "auto"
     return [

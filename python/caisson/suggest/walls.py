@@ -14,7 +14,7 @@ from caisson.design.layered import Layered
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import Body
-from caisson.suggest.soil import CAM_CLAY, LEAST_DRAINED, NGI_ADP
+from caisson.suggest.soil import LEAST_DRAINED, NGI_ADP
 
 FRICTION, ADHESION = "Friction angle of the walls", "Adhesion factor of the walls"
 STEEL = 355e6, 210e9, 0.5  # section Design: strength, modulus (Pa), fixity over D
@@ -31,15 +31,9 @@ def is_by_density(layer: Layer) -> bool:
     return layer.value("Law") in sand.LAWS.values()
 
 
-def angle_entry(layer: Layer) -> str:
-    """Return the entry with the friction angle of a layer."""
-    is_critical = layer.value("Law") in (CAM_CLAY, density_law.NOR_SAND)
-    return density_law.CRITICAL_ANGLE if is_critical else "Friction angle"
-
-
 def angle_of(layer: Layer) -> str:
     """Return the friction angle of a layer (degrees); 0 of undrained clay."""
-    return "0" if layer.value("Law") == NGI_ADP else layer.value(angle_entry(layer))
+    return "0" if layer.value("Law") == NGI_ADP else layer.value("Friction angle")
 
 
 def is_clay(layer: Layer) -> bool:
@@ -140,7 +134,7 @@ def method_of(body: Body, layers: Sequence[Layer], end: float) -> Layered | None
         if layer.value("Law") == NGI_ADP:
             name = "Active strength"
         strength = clay.number_of(layer, name, depth) if is_clay(layer) else 0.0
-        angle = clay.number_of(layer, angle_entry(layer), depth) or 0.0
+        angle = clay.number_of(layer, "Friction angle", depth) or 0.0
         density = clay.number_of(layer, density_law.DENSITY, depth)
         if strength is None or not (strength or angle or density is not None):
             return None
