@@ -29,7 +29,7 @@ namespace CaissonMPM
     const std::regex result_names(
       R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
       R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
-      R"((history|history_error|error_bar|observations|wall)\.csv(\.tmp)?|)"
+      R"((history|history_error|error_bar|observations|points|wall)\.csv(\.tmp)?|)"
       R"((run|verification)\.json(\.tmp)?|)"
       R"(run\.json\.of_rank_\d+(\.tmp)?|)"
       R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");

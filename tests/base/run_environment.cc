@@ -302,7 +302,6 @@ test_console()
       console.record(column);
       console.message("checkpoint written");
       console.warning("two points left their \x1b[31mcell by more than a cell");
-      console.failure("1 of 2 checks failed");
     }
 }
 

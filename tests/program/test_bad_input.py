@@ -157,10 +157,10 @@ class Entries(ProgramTest):
                 self.refused(words, entries=entries)
 
     def test_checks_and_observations(self) -> None:
-        """All messages: output_checks.cc."""
+        """All messages: output/observations.cc."""
         self.refused(
-            ["Verification/Checks", "no observation", "total_force_N"],
-            entries={"Verification/Checks": "final force : 0 : 1"},
+            ["Verification/Checks", "no quantity", "speed"],
+            entries={"Verification/Checks": "max sped : 0 : 1"},
         )
         self.refused(
             ["Verification/Observations", "no quantity", "speed"],
