@@ -363,6 +363,8 @@ namespace CaissonMPM
       {"end", parts.schedule.end_description()}};
     const auto more = parts.water->report(parts.materials).lines;
     lines.insert(lines.end(), more.begin(), more.end());
+    for (const std::string &routine : parts.soil.user_routines())
+      lines.emplace_back("user material", routine);
     console->summary(lines);
     for (const std::string &warning : input.warnings())
       console->warning(warning,
