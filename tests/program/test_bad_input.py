@@ -333,6 +333,7 @@ class Removed(ProgramTest):
             ("Rigid body/Friction coefficient of the tip", "Set the Friction angle"),
             ("Method/Full cell fraction inside", "Remove it: it is 0.4"),
             ("Water/Suction delay", "Remove it: it is 0.02 s"),
+            ("Material points/Path below final depth", "Remove it: it is 0.5 m"),
             ("Output/Error bar", "finds the error bar of FILE.prm in FILE_error_bar"),
             ("Design methods/Load spread", "report --load-spread X DIR"),
             ("Method/Velocity transfer", "Set FLIP fraction: 1 is FLIP"),
