@@ -26,23 +26,24 @@ namespace CaissonMPM
     , grid(lines, communicator)
     , points(grid)
     , schedule(body, clock)
-    , recorder({clock,
-                schedule,
-                soil,
-                body,
-                time_step,
-                generator,
-                boundary_conditions,
-                nodal_motion,
-                contact,
-                points,
-                body_points,
-                materials,
-                timer,
-                grid,
-                energy,
-                totals,
-                water})
+    , parts{clock,
+            schedule,
+            soil,
+            body,
+            time_step,
+            generator,
+            boundary_conditions,
+            nodal_motion,
+            contact,
+            points,
+            body_points,
+            materials,
+            timer,
+            grid,
+            energy,
+            totals,
+            water}
+    , recorder(parts)
   {
     water_settings.parse_parameters_call_back.connect(
       [this]() { choose_water(); });

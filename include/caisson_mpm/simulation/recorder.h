@@ -235,7 +235,7 @@ namespace CaissonMPM
     RunFacts
     own_facts(const std::string &status) const;
 
-    const RecordedParts parts;
+    const RecordedParts &parts;
 
     Observations observations;
 
