@@ -9,6 +9,7 @@ REFERENCES = "lab.verification"
 GROUPS: Groups = {
     "verification": {
         "verify": (STUDY, "run the verification ladder: problems with exact solutions"),
+        "checks": ("lab.checks", "compare results with what their scene states"),
         "accuracy": (STUDY, "measure error against time over meshes and methods"),
         "capacity": (
             f"{REFERENCES}.bearing_capacity",

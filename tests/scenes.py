@@ -13,7 +13,8 @@
     output = '''                   # what the program says
     '''
 
-A scene whose checks fail ends with another status than 0, and fails here, too.
+A scene whose checks (lab/checks.py) fail, fails here, too. They are the last lines of
+the output.
 """
 import argparse
 import os
@@ -27,7 +28,8 @@ from typing import Any
 import reference
 
 sys.path.append(str(reference.HERE / "program"))
-from program import ALONE, BUILD, PROGRAM, query_server, set_options  # noqa: E402
+from program import ALONE, BUILD, PROGRAM, judged  # noqa: E402
+from program import query_server, set_options  # noqa: E402
 
 Scenes = dict[str, dict[str, Any]]
 BEGIN, END = "output = '''\n", "'''\n"
@@ -52,6 +54,7 @@ def run(room: Path, scenes: Scenes, name: str) -> tuple[int, str]:
     done = query_server(words) or subprocess.run(
         words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=ALONE
     )
+    done = judged(done, directory)
     return done.returncode, done.stdout
 
 

@@ -26,6 +26,7 @@ from caisson.runner import Status
 from caisson.runs import StudyRun
 from caisson.study import Options, Study
 from caisson import disk
+from lab.checks import checks_of
 
 NAME = "stability"
 STUDY_KEYS = {"must_fail", "largest_residual", "largest_lean", "why"}
@@ -107,6 +108,9 @@ def faults_of(run: StudyRun, seen: Seen | None) -> list[str]:
     faults = [reason] if reason else []
     if run.status != Status.SUCCESS and not reason:
         faults.append(run.trouble or f"status {run.status}")
+    elif not reason:
+        found = checks_of(run.results)
+        faults += [check["line"] for check in found if not check["pass"]]
     if seen is None:
         return faults + ["no results"]
     if not seen.finite:

@@ -22,6 +22,7 @@ from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
 from caisson import disk
 from lab import machine
+from lab.checks import checks_of
 from lab.curves import final_mean
 
 FILE = ROOT / "doc/scene_results.csv"
@@ -223,7 +224,7 @@ def numbers_of(
     else:
         found = {
             (check["check"], 0.0): float(check["computed"])
-            for check in results_of_run.check_list
+            for check in checks_of(results_of_run)
             if check["exact"] != 0  # else it is noise
         }
     return [

@@ -34,6 +34,7 @@ from caisson.study import Options, Study, StudyError
 from caisson.table import number
 from caisson.error import error_bar
 from lab import outcome
+from lab.checks import checks_of
 from lab.machine import machine
 from lab.verification import damped_wave
 
@@ -63,7 +64,7 @@ def find_check(run: StudyRun, head: str) -> dict[str, Any]:
     if run.status is None or run.trouble:
         raise StudyError(str(run.trouble))
     try:
-        checks = dict(run.results.checks)
+        checks = {check["check"]: check for check in checks_of(run.results)}
         if head in damped_wave.EXACT:
             checks.update(damped_wave.checks(run.results))
     except ResultsError as error:

@@ -33,8 +33,8 @@ def fit(t: np.ndarray, values: np.ndarray) -> tuple[float, float]:
 
 
 def checks(results: Results) -> dict[str, dict[str, Any]]:
-    """Return the checks of frequency and amplitude of a run, as verification.json has
-    those of the program."""
+    """Return the checks of frequency and amplitude of a run, as those of
+    lab.checks."""
     table = results.observations
     w, g = fit(table["time_s"], table["a"])
     computed = {"frequency a": w, "amplitude a": math.exp(-g * 4 * math.pi / w)}

@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from caisson.runner import read_parameters
+from lab.checks import value_of
 from lab.paths import scene_of
 
 Pair = tuple[float, float]
@@ -145,13 +146,6 @@ PROBLEMS = {
 }
 
 
-def evaluate(expression: str, r: float, z: float, t: float) -> float:
-    """Return the value of an expression of a scene."""
-    names = {"r": r, "z": z, "t": t, "pi": math.pi}
-    names |= {name: getattr(math, name) for name in ("sin", "cos", "log")}
-    return eval(expression.replace("^", "**"), {"__builtins__": {}}, names)
-
-
 def read_scene(name: str) -> tuple[list[str], list[tuple[str, str]]]:
     """Return the two body forces, and the checks (quantity, expression)."""
     entries = read_parameters([str(scene_of("verification", name))])
@@ -169,14 +163,14 @@ def differences(name: str) -> dict[str, float]:
         for t in (0.3 * problem.end, 0.7 * problem.end, problem.end):
             exact = problem.body_force(R, Z, t)
             pairs["body force"] += [
-                (evaluate(force[d], R, Z, t), exact[d]) for d in (0, 1)
+                (float(value_of(force[d], R, Z, t)), exact[d]) for d in (0, 1)
             ]
         stress = problem.stress(R, Z, problem.end)
         values = dict(zip([f"stress_{c}" for c in ("rr", "zz", "tt", "rz")], stress))
         x = problem.motion(R, Z, problem.end)
         values |= {"displacement_r": x[0] - R, "displacement_z": x[1] - Z}
         for quantity, expression in checks:
-            found = evaluate(expression, R, Z, problem.end)
+            found = float(value_of(expression, R, Z, problem.end))
             pairs.setdefault(quantity, []).append((found, values[quantity]))
     return {
         what: max(abs(a - b) for a, b in of) / max(abs(b) for _, b in of)

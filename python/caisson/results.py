@@ -222,16 +222,6 @@ class Results:
         """Whether the run has written frames for pictures and ParaView."""
         return (self.directory / "points.pvd").is_file()
 
-    @functools.cached_property
-    def check_list(self) -> list[dict[str, Any]]:
-        """The checks of Verification/Checks, in their order: verification.json."""
-        return self._json("verification.json")
-
-    @property
-    def checks(self) -> dict[str, dict[str, Any]]:
-        """The checks by what stands before their colon."""
-        return {check["check"]: check for check in self.check_list}
-
     def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
         """Return [(time, [files])] of points.pvd or grid.pvd, in order; files
         that are gone, as of a run that was stopped, are left out."""

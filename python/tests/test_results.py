@@ -103,10 +103,6 @@ class Files(Directory):
         self.write('{"status": "finished"}', "run.json")
         self.assertEqual(len(Results(self.path).summary), 1)
 
-    def test_checks_by_their_head(self) -> None:
-        self.write('[{"check": "max speed", "pass": true}]', "verification.json")
-        self.assertTrue(Results(self.path).checks["max speed"]["pass"])
-
     def test_frames_that_are_gone_are_left_out(self) -> None:
         run = Results(shutil.copytree(TINY, self.path / "run"))
         times = [time for time, _ in run.frames()]

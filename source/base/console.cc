@@ -173,18 +173,6 @@ namespace CaissonMPM
   }
 
   void
-  Console::failure(const std::string &text)
-  {
-    out << printable(text) << std::endl;
-  }
-
-  Console::Verbosity
-  Console::get_verbosity() const
-  {
-    return verbosity;
-  }
-
-  void
   Console::print(const std::string &text)
   {
     if (verbosity != Verbosity::silent)

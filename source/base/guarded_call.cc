@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/guarded_call.h>
-#include <caisson_mpm/base/stop_request.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <boost/core/demangle.hpp>
 
-#include <sys/syscall.h>
 #include <unistd.h>
-#ifdef __SSE2__
-#  include <xmmintrin.h>
-#endif
 
-#include <atomic>
-#include <cfenv>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <iostream>
-#include <thread>
 #include <typeinfo>
 
 namespace CaissonMPM
@@ -29,40 +16,8 @@ namespace CaissonMPM
   {
     constexpr std::size_t most_characters = 4096;
 
-    constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-
-    std::atomic<const ForeignCode *> running       = nullptr;
-    std::atomic<unsigned int>        n_calls       = 0;
-    std::atomic<ExitStatus>          status_of_end = ExitStatus::bad_input;
-    std::fenv_t                      arithmetic; // of the program
-    unsigned int                     control = 0;
-    pid_t process = 0; // a child that foreign code makes is not ours
-    int   rank = 0, n_ranks = 1;
-
-    /** Rounding, traps, and what becomes of the smallest numbers; this is
-     * cheap, and to set them is not. */
-    unsigned int
-    control_of_arithmetic()
-    {
-#ifdef __SSE2__
-      return _mm_getcsr() & ~_MM_EXCEPT_MASK;
-#else
-      return std::fegetround() | fegetexcept() << 16;
-#endif
-    }
-
-    [[noreturn]] void
-    quit(const int status)
-    {
-      while (true)
-        syscall(SYS_exit_group, status);
-    }
-
-    [[noreturn]] void
-    quit_at_last(int)
-    {
-      quit(static_cast<int>(status_of_end.load()));
-    }
+    const ForeignCode *volatile running      = nullptr;
+    volatile std::sig_atomic_t status_of_end = 0; // ExitStatus
 
     /** Where foreign code runs, say what it has done and end the program. Also
      * called by handlers of signals. */
@@ -70,42 +25,28 @@ namespace CaissonMPM
     end_if_foreign(const char *what)
     {
       const ForeignCode *const code = running;
-      if (code == nullptr || getpid() != process)
+      if (code == nullptr)
         return;
       running = nullptr;
-      // of several ranks that fail one shall say it, and end the others
-      for (unsigned int left = rank > 0 ? 3 : 0; left > 0;)
-        left = sleep(left);
-      const ExitStatus status = status_of_end;
-      char             text[most_characters];
+      char text[most_characters];
       code->describe(what, text, sizeof(text));
+      const bool in_run =
+        status_of_end == static_cast<int>(ExitStatus::failure);
       dprintf(STDERR_FILENO,
               "%s: %s\n",
-              status == ExitStatus::bad_input ? "bad input" : "failure",
+              in_run ? "failure" : "bad input",
               text);
-      // what else is to be done may wait for a lock that the code has taken
-      std::signal(SIGALRM, quit_at_last);
-      alarm(5);
-      std::cout.flush();
-      if (n_ranks > 1)
-        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
-      quit(static_cast<int>(status));
+      _exit(status_of_end);
     }
 
     void
-    on_crash(const int number, siginfo_t *const info, void *)
+    on_crash(const int number)
     {
-      const ForeignCode *const code = running;
-      const bool               outside =
-        number == SIGSEGV && code != nullptr && code->is_guard(info->si_addr);
       char what[200];
       std::snprintf(what,
                     sizeof(what),
-                    "has %s SIG%s (%s). Compile it with -g -fcheck=all to find "
-                    "out where",
-                    outside ? "read or written outside its arguments, and has "
-                              "crashed with" :
-                              "crashed with",
+                    "has crashed with SIG%s (%s). Compile it with -g "
+                    "-fcheck=all to find out where",
                     sigabbrev_np(number),
                     sigdescr_np(number));
       end_if_foreign(what);
@@ -119,51 +60,24 @@ namespace CaissonMPM
                      "XIT");
     }
 
-    /** End the program where one call takes too long. */
-    void
-    watch()
-    {
-      using namespace std::chrono_literals;
-      constexpr unsigned int most = 120;
-      for (unsigned int n_looks = 0, before = 0;;)
-        {
-          std::this_thread::sleep_for(500ms);
-          const unsigned int now = n_calls;
-          n_looks = running != nullptr && now == before ? n_looks + 1 : 0;
-          before  = now;
-          if (n_looks > most)
-            end_if_foreign("has not returned for a minute");
-          if (n_looks > 1 && StopRequest::is_due())
-            end_if_foreign("does not return, and the run has been asked to "
-                           "stop by a signal or by its Wall time limit");
-        }
-    }
-
     /** Once, before any foreign code. A stack of their own serves handlers
      * where the other one is full. */
-    void
+    bool
     install_guards()
     {
-      if (process != 0)
-        return;
-      process = getpid();
-      std::fegetenv(&arithmetic);
-      control = control_of_arithmetic();
-      rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      status_of_end = static_cast<int>(ExitStatus::bad_input);
       static char room[65536];
       stack_t     stack = {};
       stack.ss_sp       = room;
       stack.ss_size     = sizeof(room);
       sigaltstack(&stack, nullptr);
       struct sigaction handler = {};
-      handler.sa_sigaction     = on_crash;
-      handler.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
-      for (const int number : crashes)
+      handler.sa_handler       = on_crash;
+      handler.sa_flags         = SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
+      for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         sigaction(number, &handler, nullptr);
       std::atexit(on_exit_of_program);
-      std::at_quick_exit(on_exit_of_program);
-      std::thread(watch).detach();
+      return true;
     }
   } // namespace
 
@@ -177,17 +91,13 @@ namespace CaissonMPM
 
   ForeignCall::ForeignCall(const ForeignCode &code)
   {
-    install_guards();
-    n_calls.store(n_calls.load(std::memory_order_relaxed) + 1,
-                  std::memory_order_relaxed);
-    running.store(&code, std::memory_order_release);
+    [[maybe_unused]] static const bool installed = install_guards();
+    running                                      = &code;
   }
 
   ForeignCall::~ForeignCall()
   {
-    running.store(nullptr, std::memory_order_release);
-    if (control_of_arithmetic() != control)
-      std::fesetenv(&arithmetic);
+    running = nullptr;
   }
 
   std::string
@@ -216,21 +126,6 @@ namespace CaissonMPM
   void
   begin_run_with_foreign_code()
   {
-    status_of_end = ExitStatus::failure;
+    status_of_end = static_cast<int>(ExitStatus::failure);
   }
 } // namespace CaissonMPM
-
-/** A library that ends the program by _exit() or _Exit() finds this function,
- * and not that of the C library. */
-extern "C" void
-_exit(const int status)
-{
-  CaissonMPM::end_if_foreign("has ended the program by _exit()");
-  CaissonMPM::quit(status);
-}
-
-extern "C" void
-_Exit(const int status) noexcept
-{
-  _exit(status);
-}

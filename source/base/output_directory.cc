@@ -29,7 +29,7 @@ namespace CaissonMPM
     const std::regex result_names(
       R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
       R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
-      R"((history|history_error|error_bar|observations|wall)\.csv(\.tmp)?|)"
+      R"((history|history_error|error_bar|observations|points|wall)\.csv(\.tmp)?|)"
       R"((run|verification)\.json(\.tmp)?|)"
       R"(run\.json\.of_rank_\d+(\.tmp)?|)"
       R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
@@ -51,31 +51,6 @@ namespace CaissonMPM
             std::regex_match(item.path().filename().string(), names))
           found.push_back(item.path());
       return found;
-    }
-
-    /** The names of those that it begins with. */
-    const std::regex
-      first_names(R"((points|grid|body)(_0000\.vtu|(_by_penetration)?\.pvd)|)"
-                  R"((history|observations|wall)\.csv|run\.json)");
-
-    /** Whether a run left nothing but its start there: its first frame, and a
-     * history.csv without a second row. */
-    bool
-    has_only_begun(const fs::path &directory)
-    {
-      std::error_code error;
-      if (!fs::exists(directory / "history.csv", error) ||
-          files_named(first_names, directory).size() !=
-            files_named(result_names, directory).size())
-        return false;
-      std::ifstream history(directory / "history.csv");
-      std::string   line;
-      if (std::getline(history, line) && line.rfind("time_s", 0) != 0)
-        return false; // it is not ours
-      unsigned int n_lines = 1;
-      while (n_lines < 3 && std::getline(history, line))
-        ++n_lines;
-      return n_lines < 3;
     }
 
     /** The subdirectory earlier_N with the first N after all that are there. */
@@ -310,10 +285,7 @@ namespace CaissonMPM
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         auto files = files_named(result_names, path_);
-        if (has_only_begun(path_))
-          for (const fs::path &file : files)
-            remove(file.string());
-        else if (!files.empty())
+        if (!files.empty())
           {
             for (const fs::path &file : files_named(derived_names, path_))
               files.push_back(file);

@@ -46,6 +46,7 @@ namespace CaissonMPM
        "Full cell fraction = 2."},
       {"Method/Full cell fraction inside",
        "Remove it: it is 0.4, or that of the surface where this is less or 2."},
+      {"Material points/Path below final depth", "Remove it: it is 0.5 m."},
       {"Method/Velocity limiter",
        "Set Limiter factor = none in the place of false."},
       {"Grid/Upper zone",

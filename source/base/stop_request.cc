@@ -8,7 +8,6 @@
 
 #include <deal.II/base/patterns.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -19,15 +18,6 @@ namespace CaissonMPM
   {
     // A signal handler can reach nothing but a global variable.
     volatile std::sig_atomic_t received_signal = 0;
-
-    // of the last object that has read its entries, by the steady clock
-    std::atomic<double> end_of_wall_time = std::numeric_limits<double>::max();
-
-    double
-    seconds(const std::chrono::steady_clock::time_point time)
-    {
-      return std::chrono::duration<double>(time.time_since_epoch()).count();
-    }
 
     extern "C" void
     remember_signal(const int signal)
@@ -94,10 +84,6 @@ namespace CaissonMPM
       "output directory, and removes the file; with an empty name there is no "
       "such file.",
       dealii::Patterns::Anything());
-    parse_parameters_call_back.connect([this]() {
-      if (wall_time_limit)
-        end_of_wall_time = seconds(start_time) + *wall_time_limit;
-    });
   }
 
   StopRequest::~StopRequest()
@@ -166,21 +152,15 @@ namespace CaissonMPM
              std::chrono::duration<double>(Clock::now() - found_at).count();
   }
 
-  bool
-  StopRequest::is_due()
-  {
-    return received_signal != 0 || seconds(Clock::now()) >= end_of_wall_time;
-  }
-
   std::string
   StopRequest::find_reason()
   {
     if (received_signal != 0)
       return name_of_signal(received_signal) + " received";
 
-    const Clock::time_point now = Clock::now();
-    if (wall_time_limit &&
-        seconds(now) - seconds(start_time) >= *wall_time_limit)
+    const Clock::time_point             now     = Clock::now();
+    const std::chrono::duration<double> elapsed = now - start_time;
+    if (wall_time_limit && elapsed.count() >= *wall_time_limit)
       return "wall time limit of " + to_text(*wall_time_limit) + " s reached";
 
     if (is_armed && now >= next_look)

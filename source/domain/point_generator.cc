@@ -82,13 +82,6 @@ namespace CaissonMPM
       "The path of the wall reaches this far beyond both of its faces.",
       not_negative);
     add_parameter(
-      "Path below final depth",
-      path_below,
-      "m",
-      "The path of the wall ends this far below the deepest position of the "
-      "tip.",
-      not_negative);
-    add_parameter(
       "Near distance",
       near_distance,
       "m",
@@ -152,6 +145,7 @@ namespace CaissonMPM
     const double middle = g.left + .5 * g.width;
     const double distance =
       std::max({body.left() - middle, middle - body.right(), 0.});
+    constexpr double path_below = .5; // the deepest position of the tip, m
     if (distance < path_margin &&
         g.bottom_left + g.height_left > body.bottom() - travel - path_below)
       return PointZone::path;

@@ -156,6 +156,16 @@ namespace CaissonMPM
     return lines;
   }
 
+  std::vector<std::string>
+  Soil::user_routines() const
+  {
+    std::vector<std::string> names;
+    for (const auto &layer : layers)
+      if (layer->umat() != nullptr)
+        names.push_back(layer->umat()->name());
+    return names;
+  }
+
   unsigned int
   Soil::n_user_state() const
   {

@@ -191,16 +191,6 @@ namespace CaissonMPM
              around_all;
   }
 
-  bool
-  UmatArguments::is_near(const void *address) const
-  {
-    const char *const first = reinterpret_cast<const char *>(lent.get());
-    const auto        place = static_cast<const char *>(address) - first;
-    return place >= -static_cast<std::ptrdiff_t>(out_of_reach) &&
-           place < static_cast<std::ptrdiff_t>(own.size() * sizeof(double) +
-                                               out_of_reach);
-  }
-
   UmatArguments::Index
   UmatArguments::guard_in(const double number)
   {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/observations.h>
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -274,6 +277,26 @@ namespace CaissonMPM
         o.region = Expression(region, place + "the region");
       return o;
     }
+
+    /** The quantities of the checks whose mode compares points. */
+    std::vector<std::string>
+    quantities_in(const std::string &checks)
+    {
+      const std::set<std::string> modes = {
+        "max", "pointwise", "mean", "rms", "spread"};
+      std::set<std::string> found;
+      for (const auto &text : Utilities::split_string_list(checks, ';'))
+        {
+          std::istringstream in(text.substr(0, text.find(':')));
+          std::string        mode, name;
+          in >> mode >> name;
+          if (modes.count(mode) == 0)
+            continue;
+          point_quantity(name, "Verification/Checks: \"" + text + "\": ");
+          found.insert(name);
+        }
+      return {found.begin(), found.end()};
+    }
   } // namespace
 
   Observations::Observations()
@@ -294,6 +317,18 @@ namespace CaissonMPM
       "coordinates r and z, the time t, and pi; a point belongs to the region "
       "where the expression is not 0. The entry Checks names the quantities.",
       Patterns::Anything());
+    add_parameter(
+      "Checks",
+      checks,
+      "SI",
+      "The checks, separated by semicolons, state the exact solution of a scene "
+      "for the laboratory (scripts/lab checks), which compares results with it. "
+      "For those of material points, written as mode quantity : exact solution "
+      ": tolerance with the modes max, pointwise, mean and rms, or as spread "
+      "quantity : tolerance, the program writes the quantities of all points "
+      "to points.csv at the end. " +
+        point_quantities_text(),
+      Patterns::Anything());
   }
 
   void
@@ -307,6 +342,7 @@ namespace CaissonMPM
           observations.push_back(parse(text, names));
           names.push_back(observations.back().name);
         }
+    quantities = quantities_in(checks);
   }
 
   std::vector<std::string>
@@ -327,5 +363,29 @@ namespace CaissonMPM
                          at_point(o, points) :
                          o.kind->value(o, sample(o, points, time)));
     return result;
+  }
+
+  void
+  Observations::write_points(const std::string &path,
+                             const AllPoints   &points,
+                             const double       time) const
+  {
+    std::vector<std::string> names = {"initial_position_r",
+                                      "initial_position_z",
+                                      "volume"};
+    names.insert(names.end(), quantities.begin(), quantities.end());
+    std::vector<PointQuantity> values;
+    std::string                text = "time_s";
+    for (const std::string &name : names)
+      {
+        values.push_back(point_quantity(name, ""));
+        text += "," + name;
+      }
+    points.for_each([&](const MaterialPoint &p) {
+      text += "\n" + to_text(time, 17);
+      for (const PointQuantity &value : values)
+        text += "," + to_text(value(p), 17);
+    });
+    write_atomically(path, text + "\n");
   }
 } // namespace CaissonMPM

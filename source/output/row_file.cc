@@ -86,7 +86,7 @@ namespace CaissonMPM
     return rows;
   }
 
-  std::vector<double>
+  void
   RowFile::append(const std::vector<double> &values)
   {
     Assert(file != nullptr, dealii::ExcMessage("call create() or resume()"));
@@ -107,7 +107,6 @@ namespace CaissonMPM
       }
     size += line.size();
     written.add(line);
-    return numbers_in(line);
   }
 
   void

@@ -90,11 +90,7 @@ namespace CaissonMPM
   void
   Recorder::check_parameters()
   {
-    const auto counts = count_names();
-    const auto scene  = scene_parts();
-    observations.initialize(Records::names(scene, counts, {}));
-    verification.check_parameters(
-      Records::names(scene, counts, observations.names()));
+    observations.initialize(history_names(scene_parts(), count_names()));
   }
 
   SceneParts
@@ -367,6 +363,8 @@ namespace CaissonMPM
       {"end", parts.schedule.end_description()}};
     const auto more = parts.water->report(parts.materials).lines;
     lines.insert(lines.end(), more.begin(), more.end());
+    for (const std::string &routine : parts.soil.user_routines())
+      lines.emplace_back("user material", routine);
     console->summary(lines);
     for (const std::string &warning : input.warnings())
       console->warning(warning,
@@ -378,22 +376,18 @@ namespace CaissonMPM
 
   // ------------------------------------------------------------ the end
 
-  bool
-  Recorder::verify()
+  void
+  Recorder::write_points()
   {
-    if (verification.empty())
-      return true;
-    const MPI_Comm  communicator = parts.grid.communicator();
+    if (observations.checked_quantities().empty())
+      return;
     const AllPoints all_points(parts.points,
                                parts.water->pressure_in_stress(),
-                               communicator);
-    const bool      passed =
-      !parts.grid.is_first_rank() || verification.run(all_points,
-                                                      *records,
-                                                      parts.clock.time,
-                                                      directory,
-                                                      *console);
-    return Utilities::MPI::min(passed ? 1 : 0, communicator) == 1;
+                               parts.grid.communicator());
+    if (parts.grid.is_first_rank())
+      observations.write_points(directory + "/points.csv",
+                                all_points,
+                                parts.clock.time);
   }
 
   RunFacts

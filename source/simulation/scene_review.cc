@@ -58,19 +58,20 @@ namespace CaissonMPM
   SceneReview::all()
   {
     thin_layers();
-    const std::string limit = scene.lines.known_limit(scene.body.shape());
+    const std::string limit =
+      parts.grid.lines().known_limit(parts.body.shape());
     if (!limit.empty())
       origins.add_warning(limit);
     gravity();
-    if (scene.body.shape().exists() && !is_block())
+    if (parts.body.shape().exists() && !is_block())
       {
         stresses();
         layers();
-        if (scene.has_inertia_tolerance)
+        if (parts.time_step.has_inertia_tolerance())
           contrast_of_stiffness();
         fluid();
       }
-    if (scene.body.shape().exists())
+    if (parts.body.shape().exists())
       {
         size_of_body();
         motion_of_body();
@@ -101,14 +102,14 @@ namespace CaissonMPM
   void
   SceneReview::layers()
   {
-    for (const unsigned int i : scene.soil.uppermost_materials())
+    for (const unsigned int i : parts.soil.uppermost_materials())
       {
-        const SoilMaterial &soil = scene.soil.material(i);
+        const SoilMaterial &soil = parts.soil.material(i);
         stiffness_and_strength(soil);
         solid_density(soil);
         density_of_state(soil);
         const double k = soil.permeability;
-        if (scene.water.uses_permeability && k > largest_permeability)
+        if (parts.water->traits().uses_permeability && k > largest_permeability)
           doubt(soil.section() + "/Permeability",
                 k,
                 "m/s",
@@ -121,7 +122,8 @@ namespace CaissonMPM
   {
     constexpr double stiff_volume = .4;
     if (const auto nu = soil.poisson_ratio)
-      if (*nu > stiff_volume && !scene.method.uses_mean_volume())
+      if (*nu > stiff_volume &&
+          !parts.nodal_motion.settings().uses_mean_volume())
         doubt(soil.section() + "/Poisson ratio",
               *nu,
               "",
@@ -149,7 +151,8 @@ namespace CaissonMPM
     constexpr double least = .45;
     const auto       nu    = soil.poisson_ratio;
     if (nu && *nu < least && soil.shear_strength && !soil.friction_angle &&
-        !scene.water.follows_soil && scene.water.bulk_modulus == 0.)
+        !parts.water->traits().follows_soil &&
+        parts.water->traits().bulk_modulus == 0.)
       doubt(soil.section() + "/Poisson ratio",
             *nu,
             "",
@@ -199,7 +202,7 @@ namespace CaissonMPM
   void
   SceneReview::gravity()
   {
-    const double gravity = scene.soil.gravity[vertical];
+    const double gravity = parts.soil.gravity[vertical];
     if (std::abs(gravity) > largest_gravity)
       origins.add_warning("Soil/Gravity is " + to_text(gravity, 6) +
                           " m/s2 in the vertical, which is more than that of "
@@ -213,10 +216,10 @@ namespace CaissonMPM
   void
   SceneReview::fluid()
   {
-    const double gravity = scene.soil.gravity[vertical];
-    if (!scene.soil.is_submerged() || gravity == 0.)
+    const double gravity = parts.soil.gravity[vertical];
+    if (!parts.soil.is_submerged() || gravity == 0.)
       return;
-    const double density = -scene.soil.unit_weight_of_water() / gravity;
+    const double density = -parts.soil.unit_weight_of_water() / gravity;
     if (density < least_fluid_density || density > largest_fluid_density)
       doubt("Soil/Fluid density",
             density,
@@ -227,8 +230,8 @@ namespace CaissonMPM
   void
   SceneReview::thin_layers()
   {
-    const double width = scene.body.shape().cell_width();
-    const auto   tops  = scene.soil.interfaces();
+    const double width = parts.body.shape().cell_width();
+    const auto   tops  = parts.soil.interfaces();
     for (std::size_t i = 0; i < tops.size(); ++i)
       {
         const double thickness = (i > 0 ? tops[i - 1] : 0.) - tops[i];
@@ -250,7 +253,7 @@ namespace CaissonMPM
   void
   SceneReview::size_of_body()
   {
-    const BodyShape &shape = scene.body.shape();
+    const BodyShape &shape = parts.body.shape();
     const double     size =
       std::max(2. * shape.right(),
                shape.expands() ? 0. : shape.top() - shape.bottom());
@@ -259,7 +262,7 @@ namespace CaissonMPM
         "the body is " + meters(size) +
         " large. Check Rigid body/Outer diameter "
         "and Rigid body/Skirt length: lengths are in meters.");
-    const double density = scene.body.density;
+    const double density = parts.body.density;
     if (density < least_body_density || density > largest_body_density)
       doubt("Rigid body/Density",
             density,
@@ -267,7 +270,7 @@ namespace CaissonMPM
             "is not the density of steel (7850 kg/m3) or concrete (2400 "
             "kg/m3)." +
               other_unit_of_density(density));
-    const double top_at_end = shape.top() - scene.lines.total_travel();
+    const double top_at_end = shape.top() - parts.grid.lines().total_travel();
     if (!shape.expands() && shape.top() < -1e-9)
       origins.add_warning(
         "the top of the body begins at z = " + meters(shape.top()) +
@@ -276,7 +279,7 @@ namespace CaissonMPM
         "body/Skirt length.");
     else if (!shape.expands() && top_at_end < -1e-9)
       origins.add_warning(
-        "the travel of " + meters(scene.lines.total_travel()) +
+        "the travel of " + meters(parts.grid.lines().total_travel()) +
         " brings the top of the body to z = " + meters(top_at_end) +
         ", below the soil surface: soil would flow over it, or a lid would be "
         "in the soil. Increase Rigid body/Skirt length, or end earlier.");
@@ -285,12 +288,12 @@ namespace CaissonMPM
   void
   SceneReview::motion_of_body()
   {
-    const double speed = scene.body.motion().usual_velocity();
-    if (speed > largest_part_of_speed * scene.wave_speed)
+    const double speed = parts.body.motion().usual_velocity();
+    if (speed > largest_part_of_speed * wave_speed)
       origins.add_warning(
         "the body moves at " + to_text(speed, 4) +
         " m/s, more than a tenth of the wave speed in the soil, " +
-        to_text(scene.wave_speed, 4) +
+        to_text(wave_speed, 4) +
         " m/s: inertia decides its forces. Check Rigid body/Velocity, which is "
         "in m/s, and Time/Mass scaling.");
   }
@@ -299,14 +302,15 @@ namespace CaissonMPM
   SceneReview::confinement()
   {
     const double deepest =
-      std::min(0., scene.body.shape().bottom() - scene.lines.total_travel());
-    const unsigned int  m    = scene.soil.material_at(deepest);
-    const SoilMaterial &soil = scene.soil.material(m);
+      std::min(0.,
+               parts.body.shape().bottom() - parts.grid.lines().total_travel());
+    const unsigned int  m    = parts.soil.material_at(deepest);
+    const SoilMaterial &soil = parts.soil.material(m);
     if (!soil.friction_angle || soil.shear_strength.value_or(0.) > 0.)
       return;
-    const double speed   = scene.body.motion().usual_velocity(),
-                 inertia = scene.soil.inertial_density(m) * speed * speed,
-                 stress  = -scene.soil.initial_stress(
+    const double speed   = parts.body.motion().usual_velocity(),
+                 inertia = parts.soil.inertial_density(m) * speed * speed,
+                 stress  = -parts.soil.initial_stress(
                    dealii::Point<2>(0., deepest))[zz];
     if (stress > 0. && inertia > stress)
       origins.add_warning(
@@ -323,7 +327,7 @@ namespace CaissonMPM
   void
   SceneReview::cells_at_tip()
   {
-    if (is_pushed_in() && scene.body.shape().cells_across_wall() == 1)
+    if (is_pushed_in() && parts.body.shape().cells_across_wall() == 1)
       origins.add_warning(
         "Rigid body/Cells across the wall = 1 makes the tip far too strong: "
         "one cell has been seen to raise its force by 44 % against two, and "
@@ -334,15 +338,16 @@ namespace CaissonMPM
   SceneReview::points_at_tip()
   {
     constexpr double   widths = 5.; // of the wall, for which the points last
-    const unsigned int enough = scene.water.least_points,
-                       n      = scene.generator.points_per_direction_in_path();
-    const BodyShape &shape    = scene.body.shape();
-    if (is_pushed_in() && scene.generator.least_points_per_direction() == 1)
+    const unsigned int enough = parts.water->traits().least_points,
+                       n      = parts.generator.points_per_direction_in_path();
+    const BodyShape &shape    = parts.body.shape();
+    if (is_pushed_in() && parts.generator.least_points_per_direction() == 1)
       origins.add_warning(
         "one point per cell (section Material points) makes the tip too weak, "
         "by up to a half. Set at least 2 everywhere.");
-    if (is_pushed_in() && !scene.generator.splits_and_merges() && n < enough &&
-        scene.lines.total_travel() > widths * (shape.right() - shape.left()))
+    if (is_pushed_in() && !parts.generator.splits_and_merges() && n < enough &&
+        parts.grid.lines().total_travel() >
+          widths * (shape.right() - shape.left()))
       throw BadInput(
         "Material points/Per direction in path = " + to_text(n) +
         " without Split and merge lets cells beneath the tip run out of "
@@ -354,7 +359,7 @@ namespace CaissonMPM
   void
   SceneReview::transfer()
   {
-    const auto flip = scene.method.given_flip_fraction();
+    const auto flip = parts.nodal_motion.settings().given_flip_fraction();
     if (is_pushed_in() && flip && *flip < .95) // the least of auto
       doubt("Method/FLIP fraction",
             *flip,
@@ -367,20 +372,20 @@ namespace CaissonMPM
   void
   SceneReview::friction()
   {
-    const BodyShape    &shape   = scene.body.shape();
-    const auto         &angles  = scene.body.surface().friction_angle;
+    const BodyShape    &shape   = parts.body.shape();
+    const auto         &angles  = parts.body.surface().friction_angle;
     const double        depth   = shape.expands() ?
-                                    scene.lines.depth() :
-                                    scene.lines.total_travel() - shape.bottom();
+                                    parts.grid.lines().depth() :
+                                    parts.grid.lines().total_travel() - shape.bottom();
     const double        inner   = shape.left() > 0. ? angles[inner_wall] : 0.;
     const double        wall    = std::max(angles[outer_wall], inner);
     const SoilMaterial *weakest = nullptr, *strongest = nullptr;
     const auto          margin = [wall](const SoilMaterial &soil) {
       return *soil.friction_angle - soil.wall_friction_angle.value_or(wall);
     };
-    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+    for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
       {
-        const SoilMaterial &soil = scene.soil.material(i);
+        const SoilMaterial &soil = parts.soil.material(i);
         if (!soil.friction_angle || soil.top_depth > depth)
           continue;
         if (weakest == nullptr || margin(soil) < margin(*weakest))
@@ -424,7 +429,7 @@ namespace CaissonMPM
   SceneReview::too_rough(const Surface surface, const std::string &exceeds)
   {
     doubt("Rigid body/Friction angle of the " + name_of(surface),
-          scene.body.surface().friction_angle[surface],
+          parts.body.surface().friction_angle[surface],
           "degrees",
           exceeds + on_rough_surface);
   }
@@ -432,8 +437,8 @@ namespace CaissonMPM
   void
   SceneReview::boundaries()
   {
-    const BodyShape &shape = scene.body.shape();
-    const GridLines &lines = scene.lines;
+    const BodyShape &shape = parts.body.shape();
+    const GridLines &lines = parts.grid.lines();
     if (!is_pushed_in())
       return;
     const double diameter = 2. * shape.right(),
@@ -475,14 +480,15 @@ namespace CaissonMPM
   SceneReview::is_block() const
   {
     // the other bodies ask for cells of their own
-    return scene.body.shape().cell_width() == 0.;
+    return parts.body.shape().cell_width() == 0.;
   }
 
   bool
   SceneReview::is_pushed_in() const
   {
-    return scene.lines.axisymmetric() && !is_block() &&
-           !scene.body.shape().expands() && scene.lines.total_travel() > 0.;
+    return parts.grid.lines().axisymmetric() && !is_block() &&
+           !parts.body.shape().expands() &&
+           parts.grid.lines().total_travel() > 0.;
   }
 
   // ------------------------------------------------------------ water
@@ -493,18 +499,18 @@ namespace CaissonMPM
     // a hundredth of the least that an installation would meet
     constexpr double  part   = .01;
     const std::string weight = "Rigid body/Submerged weight";
-    const double      own    = -scene.soil.gravity[vertical] * scene.body_mass;
-    if (origins.is_set(weight) && scene.body.submerged_weight() < part * own)
+    const double      own    = -parts.soil.gravity[vertical] * body_mass;
+    if (origins.is_set(weight) && parts.body.submerged_weight() < part * own)
       doubt(weight,
-            scene.body.submerged_weight(),
+            parts.body.submerged_weight(),
             "N",
             "is less than a hundredth of the weight of the body's cells, " +
               to_text(own, 3) + " N. Check the unit, N: 1 kN is 1000 N.");
-    const LidCompartment *const lid = scene.water.lid;
+    const LidCompartment *const lid = parts.water->traits().lid;
     if (lid == nullptr)
       return;
-    const BodyShape &shape = scene.body.shape();
-    const double least = part * scene.soil.unit_weight(scene.soil.material(0)) *
+    const BodyShape &shape = parts.body.shape();
+    const double least = part * parts.soil.unit_weight(parts.soil.material(0)) *
                          (shape.top() - shape.bottom());
     const auto check = [&](const std::string &entry, const double pressure) {
       if (pressure > 0. && pressure < least)
@@ -520,13 +526,14 @@ namespace CaissonMPM
   void
   SceneReview::seepage()
   {
-    if (!scene.water.uses_permeability || scene.water.follows_soil)
+    if (!parts.water->traits().uses_permeability ||
+        parts.water->traits().follows_soil)
       return;
     // drained soil has more friction, or a cohesion that is not the larger part
     constexpr double least_angle = 10., usual_angle = 20., part = 4.;
-    for (const unsigned int i : scene.soil.uppermost_materials())
+    for (const unsigned int i : parts.soil.uppermost_materials())
       {
-        const SoilMaterial &soil     = scene.soil.material(i);
+        const SoilMaterial &soil     = parts.soil.material(i);
         const double        cohesion = soil.shear_strength.value_or(0.);
         const double        angle    = soil.friction_angle.value_or(0.);
         const double friction = std::tan(angle * pi / 180.) * weight_above();
@@ -551,27 +558,26 @@ namespace CaissonMPM
   SceneReview::length_of_run()
   {
     std::string depths;
-    for (const double depth : scene.schedule.frames_out_of_reach())
+    for (const double depth : parts.schedule.frames_out_of_reach())
       depths += (depths.empty() ? "" : ", ") + meters(depth);
     if (!depths.empty())
       origins.add_cosmetic_warning(
         "Output/Frame penetrations: the body does not come to " + depths +
         ". Remove what is not reached, or set a later end in "
         "section Time.");
-    if (!std::isfinite(scene.n_steps))
+    if (!std::isfinite(n_steps))
       return;
-    if (scene.n_steps > largest_n_steps)
+    if (n_steps > largest_n_steps)
       origins.add_warning(
-        "the run takes about " + to_text(scene.n_steps, 2) +
+        "the run takes about " + to_text(n_steps, 2) +
         " steps. Check the units, the smallest cells, and Time/Time step.");
     const double n_frames =
-      std::min<double>(scene.n_steps, scene.schedule.n_frames());
+      std::min<double>(n_steps, parts.schedule.n_frames());
     if (n_frames > largest_n_frames)
       origins.add_warning(
         "the run writes " + to_text(n_frames, 2) +
         " frames. Check Output/Frame interval, which is in s.");
-    const double n_records =
-      std::min(scene.n_steps, scene.schedule.n_records());
+    const double n_records = std::min(n_steps, parts.schedule.n_records());
     if (n_records > largest_n_records)
       origins.add_warning("the run writes " + to_text(n_records, 2) +
                           " rows to history.csv. Check Output/Record interval, "

@@ -500,18 +500,7 @@ namespace CaissonMPM
     double slowest_wave = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       slowest_wave = std::min(slowest_wave, wave_speed(i));
-    SceneReview({lines,
-                 nodal_motion.settings(),
-                 generator,
-                 soil,
-                 body,
-                 water->traits(),
-                 schedule,
-                 mass_of_body(),
-                 slowest_wave,
-                 time_step.has_inertia_tolerance(),
-                 number_of_steps()},
-                origins)
+    SceneReview(parts, mass_of_body(), slowest_wave, number_of_steps(), origins)
       .all();
     const double reach = body.shape().exists() && !body.shape().expands() ?
                            lines.total_travel() - body.shape().bottom() :

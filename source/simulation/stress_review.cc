@@ -87,8 +87,8 @@ namespace CaissonMPM
             is_of_layer ? strongest(entry) : std::optional<unsigned int>();
           if (soil)
             stress(entry,
-                   *scene.soil.material(*soil).law_value(entry.name),
-                   scene.soil.material(*soil).friction_angle);
+                   *parts.soil.material(*soil).law_value(entry.name),
+                   parts.soil.material(*soil).friction_angle);
           else if (!is_of_layer)
             stress(entry, number_of(entry), {});
         }
@@ -101,10 +101,10 @@ namespace CaissonMPM
     std::optional<unsigned int> found;
     const std::string           layer = "Soil/" + entry.subsections[1];
     const auto                  value = [&](const unsigned int i) {
-      return scene.soil.material(i).law_value(entry.name);
+      return parts.soil.material(i).law_value(entry.name);
     };
-    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
-      if (scene.soil.material(i).section() == layer && value(i) &&
+    for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
+      if (parts.soil.material(i).section() == layer && value(i) &&
           (!found || *value(i) > *value(*found)))
         found = i;
     return found;
@@ -143,7 +143,7 @@ namespace CaissonMPM
   {
     constexpr double part  = .01;
     const double     depth = depth_of_skirt();
-    const double given = -scene.soil.initial_stress(Point<2>(0., -depth))[zz];
+    const double given = -parts.soil.initial_stress(Point<2>(0., -depth))[zz];
     for (const std::string entry :
          {"Soil/Uniform stress", "Soil/Stress expression"})
       if (origins.is_set(entry) && given > 0. && given < part * weight_above())
@@ -160,9 +160,9 @@ namespace CaissonMPM
     // with a uniform scaling these came through
     constexpr double      largest = 250.;
     std::optional<double> above;
-    for (const unsigned int i : scene.soil.uppermost_materials())
+    for (const unsigned int i : parts.soil.uppermost_materials())
       {
-        const SoilMaterial &soil   = scene.soil.material(i);
+        const SoilMaterial &soil   = parts.soil.material(i);
         const auto          youngs = soil.youngs_modulus;
         const double        ratio =
           youngs && above ? std::max(*youngs / *above, *above / *youngs) : 1.;
@@ -183,10 +183,10 @@ namespace CaissonMPM
   double
   SceneReview::depth_of_skirt() const
   {
-    const BodyShape &shape = scene.body.shape();
-    const double     way   = scene.lines.total_travel() - shape.bottom();
+    const BodyShape &shape = parts.body.shape();
+    const double     way   = parts.grid.lines().total_travel() - shape.bottom();
     const double length = shape.expands() ? 0. : shape.top() - shape.bottom();
-    return std::min(std::max(way, length), scene.lines.depth());
+    return std::min(std::max(way, length), parts.grid.lines().depth());
   }
 
   double
@@ -194,14 +194,14 @@ namespace CaissonMPM
   {
     const double depth = depth_of_skirt();
     double       sum   = 0.;
-    for (unsigned int i = 0; i < scene.soil.n_materials(); ++i)
+    for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
       {
-        const SoilMaterial &soil   = scene.soil.material(i);
-        const double        bottom = i + 1 < scene.soil.n_materials() ?
-                                       scene.soil.material(i + 1).top_depth :
+        const SoilMaterial &soil   = parts.soil.material(i);
+        const double        bottom = i + 1 < parts.soil.n_materials() ?
+                                       parts.soil.material(i + 1).top_depth :
                                        depth;
         sum += std::max(std::min(bottom, depth) - soil.top_depth, 0.) *
-               scene.soil.unit_weight(soil);
+               parts.soil.unit_weight(soil);
       }
     return sum;
   }

@@ -81,17 +81,9 @@ test_put_aside()
 {
   print_error("put aside", [&]() {
     const OutputDirectory directory("mesh/results", MPI_COMM_WORLD);
-    for (const std::string text : {"time_s\n",
-                                   "time_s\n0\n",
-                                   "time_s\n0\n1\n",
-                                   "time_s\n0\n1\n2\n",
-                                   "time_s\n0\n",
-                                   "a note\n"})
+    for (const std::string text : {"time_s\n", "time_s\n0\n1\n2\n"})
       {
         std::ofstream("mesh/results/history.csv") << text;
-        // the last one has a frame that no run begins with
-        if (std::filesystem::exists("mesh/results/earlier_2"))
-          std::ofstream("mesh/results/points_0009.vtu") << "";
         std::ofstream("mesh/results/report.html") << "drawn";
         std::cout << '"' << directory.put_aside(MPI_COMM_WORLD) << "\" ";
       }
@@ -102,8 +94,6 @@ test_put_aside()
   });
   std::filesystem::remove_all("mesh/results/earlier_1");
   std::filesystem::remove_all("mesh/results/earlier_2");
-  std::filesystem::remove_all("mesh/results/earlier_3");
-  std::filesystem::remove_all("mesh/results/earlier_4");
 }
 
 
@@ -302,7 +292,6 @@ test_console()
       console.record(column);
       console.message("checkpoint written");
       console.warning("two points left their \x1b[31mcell by more than a cell");
-      console.failure("1 of 2 checks failed");
     }
 }
 

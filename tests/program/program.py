@@ -33,6 +33,7 @@ from caisson import runner  # noqa: E402
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
 from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
+from lab.checks import checks_of  # noqa: E402
 
 SUCCESS = Status.SUCCESS
 BAD_INPUT = Status.BAD_INPUT
@@ -74,8 +75,22 @@ def summary(path: Path) -> dict[str, Any]:
 
 
 def checks(path: Path) -> list[dict[str, Any]]:
-    """Return verification.json of a run."""
-    return Results(path).check_list
+    """Return what the checks of a run find."""
+    return checks_of(Results(path))
+
+
+def judged(
+    done: "subprocess.CompletedProcess[str]", path: Path
+) -> "subprocess.CompletedProcess[str]":
+    """Add the checks of the scene to what its run has said; a run whose checks fail
+    fails."""
+    if done.returncode != SUCCESS or not (path / "run.json").is_file():
+        return done
+    found = checks(path)
+    done.stdout += "".join(f"{check['line']}\n" for check in found)
+    if not all(check["pass"] for check in found):
+        done.returncode = FAILURE
+    return done
 
 
 def flip_a_bit(path: Path) -> None:
@@ -191,17 +206,21 @@ class ProgramTest(unittest.TestCase):
     def call(
         self, *options: Any, entries: Entries | None = None, ranks: int = 1
     ) -> "subprocess.CompletedProcess[str]":
-        """Run the program to its end, whatever its status; with its words."""
+        """Run the program to its end, whatever its status, and the checks of its scene;
+        with its words."""
         words = self.command(*options, entries=entries, ranks=ranks)
         done = query_server(words) if ranks == 1 else None
         several = {**environment(), "OMPI_MCA_mpi_yield_when_idle": "1"}
-        return done or subprocess.run(
+        done = done or subprocess.run(
             words,
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             env=ALONE if ranks == 1 else several,
         )
+        if "--output-directory" not in options or "--validate" in options:
+            return done
+        return judged(done, Path(options[options.index("--output-directory") + 1]))
 
     def run_program(
         self,

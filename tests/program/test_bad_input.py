@@ -157,10 +157,10 @@ class Entries(ProgramTest):
                 self.refused(words, entries=entries)
 
     def test_checks_and_observations(self) -> None:
-        """All messages: output_checks.cc."""
+        """All messages: output/observations.cc."""
         self.refused(
-            ["Verification/Checks", "no observation", "total_force_N"],
-            entries={"Verification/Checks": "final force : 0 : 1"},
+            ["Verification/Checks", "no quantity", "speed"],
+            entries={"Verification/Checks": "max sped : 0 : 1"},
         )
         self.refused(
             ["Verification/Observations", "no quantity", "speed"],
@@ -333,6 +333,7 @@ class Removed(ProgramTest):
             ("Rigid body/Friction coefficient of the tip", "Set the Friction angle"),
             ("Method/Full cell fraction inside", "Remove it: it is 0.4"),
             ("Water/Suction delay", "Remove it: it is 0.02 s"),
+            ("Material points/Path below final depth", "Remove it: it is 0.5 m"),
             ("Output/Error bar", "finds the error bar of FILE.prm in FILE_error_bar"),
             ("Design methods/Load spread", "report --load-spread X DIR"),
             ("Method/Velocity transfer", "Set FLIP fraction: 1 is FLIP"),

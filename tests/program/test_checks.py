@@ -10,25 +10,21 @@ from program import FAILURE, ProgramTest, checks, history, summary
 class Checks(ProgramTest):
     """The sections Verification/Checks and Observations."""
 
-    def test_checks(self) -> None:
+    def test_a_check_that_fails(self) -> None:
         path = self.directory()
-        entries = {
-            "Output/Terminal": "full",
-            "Time/End time": 0.02,
-            "Verification/Checks": "max displacement_r : 0 : 1e-9;"
-            " mean velocity_z : 1 : 0.1",
-        }
-        text = self.run_scene("wave_xpic", path, FAILURE, entries=entries)
+        text = self.run_scene(
+            "wave_xpic",
+            path,
+            FAILURE,
+            entries={
+                "Time/End time": 0.02,
+                "Verification/Checks": "max displacement_r : 0 : 1e-9;"
+                " mean velocity_z : 1 : 0.1",
+            },
+        )
         self.assertIn("within 1e-09: yes", text)
         self.assertIn("within 0.1: no", text)
-        self.assertIn("1 of 2 checks failed", text)
-        entries["Output/Terminal"] = "silent"
-        text = self.run_scene("wave_xpic", path, FAILURE, entries=entries)
-        self.assertEqual(text.strip(), "1 of 2 checks failed")
-        found = checks(path)
-        self.assertEqual([check["pass"] for check in found], [True, False])
-        for key in "quantity computed exact relative_error tolerance".split():
-            self.assertIn(key, found[0])
+        self.assertEqual([check["pass"] for check in checks(path)], [True, False])
 
     def test_observations(self) -> None:
         """Of every step."""
@@ -61,15 +57,6 @@ class Checks(ProgramTest):
             entries={"Verification/Checks": ";".join(failing)},
         )
         self.assertEqual(len(re.findall(": no\n", text)), len(failing), text)
-
-    def test_check_of_no_point(self) -> None:
-        text = self.run_scene(
-            "wave_series",
-            self.directory(),
-            FAILURE,
-            entries={"Verification/Checks": "max speed where r > 9 : 0 : 1"},
-        )
-        self.assertIn("no material point", text)
 
 
 if __name__ == "__main__":

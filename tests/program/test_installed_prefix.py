@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-from program import HERE, SUCCESS, ProgramTest, checks, summary
+from program import HERE, SUCCESS, ProgramTest, summary
 
 from caisson.__main__ import COMMANDS
 
@@ -108,7 +108,7 @@ class Prefix(ProgramTest):
         """A scene of the installation, by its name, into the current directory."""
         said = self.installed("caisson", "run", "column.prm")
         results = self.here / "results/column"
-        self.assertTrue(checks(results))
+        self.assertTrue((results / "points.csv").is_file())
         self.assertEqual(
             summary(results)["scene_file"],
             str(self.prefix / "share/caisson_mpm/prm/column.prm"),

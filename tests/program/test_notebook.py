@@ -160,12 +160,12 @@ class Runs(ProgramTest):
             self.assertLess(caisson.load(path).history["penetration_m"].iloc[-1], 1.9)
 
     def test_failure(self) -> None:
-        """A check that fails is one; the results are there."""
+        """A run that cannot continue is one; what it has written is there."""
         path = self.directory()
-        checks = {"Verification/Checks": "max speed : 0 : 1e-12"}
+        fault = {"Soil/Layer 1/Solid density": 1e307}
         with self.assertRaisesRegex(caisson.RunError, "exit status 2, results: .*"):
-            caisson.run(self.scene, {**SHORT, **checks}, output_directory=path)
-        self.assertEqual(caisson.load(path).status, "verification failed")
+            caisson.run(self.scene, {**SHORT, **fault}, output_directory=path)
+        self.assertEqual(caisson.load(path).status, "failed")
 
 
 if __name__ == "__main__":

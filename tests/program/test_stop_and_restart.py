@@ -6,6 +6,7 @@ import re
 import shutil
 import signal
 import subprocess
+import time
 import unittest
 from pathlib import Path
 
@@ -72,6 +73,21 @@ class Stop(ProgramTest):
     def run_pieces(self, path: Path, entries: Entries) -> None:
         """Run simulation/jack.prm to an earlier end than it has."""
         self.run_scene("jack", path, entries={**entries, "Time/End penetration": 0.55})
+
+    def test_checkpoints_during_a_run(self) -> None:
+        """Those at an interval serve when the run is killed."""
+        path = self.directory()
+        entries = {"Time/Courant number": 0.05, "Output/Checkpoint interval": 1e-3}
+        process = self.start(scene("jack"), "--output-directory", path, entries=entries)
+        assert process.stdout
+        with process.stdout:
+            while process.poll() is None and not (path / "checkpoint.info").exists():
+                time.sleep(0.01)
+            process.kill()
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+        entries["Time/End penetration"] = 0.51
+        self.run_scene("jack", path, SUCCESS, "--restart", entries=entries)
+        self.assertGreater(history(path)[-1]["step"], 400)
 
     def test_stopped_twice_is_one_run(self) -> None:
         """The history of one run, its checks and its frames."""

@@ -387,6 +387,17 @@ class SealedLid(ProgramTest):
             suction.append(float(np.mean([row["suction_Pa"] for row in rows])))
         self.assertAlmostEqual(suction[1] / suction[0], 10, delta=0.3)
 
+    def test_soft_water_beneath_the_lid(self) -> None:
+        """Water with gas in it gives way, and the suction lags behind."""
+        suction = []
+        for modulus in (2.2e9, 1e5):
+            path = self.directory(f"{modulus:.0f}")
+            entries: Entries = {**SEALED, "Water/Lid water modulus": modulus, END: 0.99}
+            self.run_scene("jack", path, entries=entries)
+            suction.append(history(path)[-1]["suction_Pa"])
+        self.assertGreater(suction[1], 0)
+        self.assertLess(suction[1], 0.8 * suction[0])
+
     def test_restart_and_ranks(self) -> None:
         """A run that is resumed on two ranks has the history of one that was not
         stopped: at the step at which both build their caches again, to the last

@@ -267,11 +267,6 @@ REFUSED: tuple[tuple[list[str], Entries], ...] = (
         ["in its region at the start"],
         {"Verification/Observations": "a = mean speed where 0"},
     ),
-    (
-        ["earlier time first"],
-        {"Verification/Checks": "final total_force_N from 1 to 0 : 5 : 1"},
-    ),
-    (["region is 0"], {"Verification/Checks": "max speed where 0 : 5 : 1"}),
 )
 
 # entries on which warnings of others depend

@@ -20,7 +20,6 @@ FLOORS = [
         "Simulation, Schedule, Recorder",
     ),
     ("restart", "#cfd8dc", "checkpoints", "write_checkpoint, PointFile"),
-    ("checks", "#cfd8dc", "comparisons with exact values", "Verification"),
     (
         "output",
         "#cfd8dc",

@@ -23,7 +23,7 @@ from caisson_workshop.lengths import check_lengths
 
 Violations = Iterator[tuple[int, str]]  # (line, text)
 
-FLOORS = """base kernels materials bodies domain operators water output checks restart
+FLOORS = """base kernels materials bodies domain operators water output restart
     simulation""".split()
 NOT_IN_KERNELS = re.compile(
     r"deal\.II/.*|vector|map|string|array|functional|memory|unordered_map|"

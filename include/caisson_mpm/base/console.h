@@ -103,14 +103,6 @@ namespace CaissonMPM
       return warnings_;
     }
 
-    /** Why the program ends with a failure: printed in all verbosities. One
-     * rank calls this. */
-    void
-    failure(const std::string &text);
-
-    Verbosity
-    get_verbosity() const;
-
   private:
     void
     print(const std::string &text);

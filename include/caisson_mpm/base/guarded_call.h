@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Calls of code that somebody else has written, which may throw, crash, hang or
-// end the program.
+// Calls of code that somebody else has written, which may throw, crash or end
+// the program.
 #ifndef caisson_mpm_base_guarded_call_h
 #define caisson_mpm_base_guarded_call_h
 
@@ -23,14 +23,6 @@ namespace CaissonMPM
     virtual void
     describe(const char *what, char *text, const std::size_t size) const = 0;
 
-    /** Whether memory at this address, which cannot be used, is there to find
-     * out that the code uses what it has not been given. Nor must this. */
-    virtual bool
-    is_guard(const void *) const
-    {
-      return false;
-    }
-
     /** The same sentence. */
     std::string
     description(const std::string &what) const;
@@ -45,11 +37,9 @@ namespace CaissonMPM
 
   /**
    * While an object lives, foreign code runs. Where it crashes (SIGSEGV,
-   * SIGBUS, SIGFPE, SIGILL, SIGABRT), leaves the program (exit, STOP, _exit,
-   * quick_exit), or does not return for a minute, its description is printed,
-   * and the program ends on all ranks. It does not wait for the minute where
-   * the run has been asked to stop (StopRequest). How the processor computes is
-   * set back at the end. One object at a time.
+   * SIGBUS, SIGFPE, SIGILL, SIGABRT) or leaves the program (exit, STOP), its
+   * description is the last line, and the program ends; mpirun then ends the
+   * other ranks. One object at a time.
    */
   class ForeignCall
   {

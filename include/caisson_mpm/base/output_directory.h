@@ -57,9 +57,8 @@ namespace CaissonMPM
     /**
      * Move these files, and the pictures and reports of them, to a new
      * subdirectory earlier_1, earlier_2, ... Returns its path on the first
-     * rank, or an empty text where there is nothing to keep: of a run that has
-     * only begun, without a checkpoint, the files are removed. Throws BadInput
-     * on all ranks where the files cannot be moved; then they stay. Collective.
+     * rank, or an empty text where there is nothing to keep. Throws BadInput on
+     * all ranks where the files cannot be moved; then they stay. Collective.
      */
     std::string
     put_aside(const MPI_Comm communicator) const;

@@ -78,11 +78,6 @@ namespace CaissonMPM
     double
     seconds_since() const;
 
-    /** Whether a signal has come, or the wall time of an object is over; at any
-     * time, and from any thread. */
-    static bool
-    is_due();
-
   private:
     using Clock = std::chrono::steady_clock;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The material points of all ranks in one place, for what looks at single
-// points: observations and checks.
+// points: observations.
 #ifndef caisson_mpm_domain_all_points_h
 #define caisson_mpm_domain_all_points_h
 

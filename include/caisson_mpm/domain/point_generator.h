@@ -131,7 +131,6 @@ namespace CaissonMPM
     unsigned int                largest_number = 10000000;
 
     double       path_margin   = 0.1;
-    double       path_below    = 0.5;
     double       near_distance = 1.;
     double       region_left = 0., region_right = 1e30;
     double       region_bottom = -1e30, region_top = 0.;

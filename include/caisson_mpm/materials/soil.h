@@ -49,6 +49,10 @@ namespace CaissonMPM
     std::string
     checksums_of_libraries() const;
 
+    /** The routines of user materials, with their libraries. */
+    std::vector<std::string>
+    user_routines() const;
+
     /** The number of numbers that each point keeps for user materials. */
     unsigned int
     n_user_state() const;

@@ -111,11 +111,6 @@ namespace CaissonMPM
     Index
     written_guard() const;
 
-    /** Whether the address lies so close to the arguments that only a call can
-     * have used it. */
-    bool
-    is_near(const void *address) const;
-
     /** The argument whose guard was read, if the number is computed with it;
      * n_arguments else. */
     static Index

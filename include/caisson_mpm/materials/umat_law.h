@@ -81,6 +81,13 @@ namespace CaissonMPM
                const double       step_size,
                const unsigned int step);
 
+    /** Routine and library, for the log: before it is called in a run. */
+    std::string
+    name() const
+    {
+      return settings.routine + " of " + settings.library;
+    }
+
     /** Why the UMAT has failed; empty where it has not. */
     const std::string &
     failure() const
@@ -110,12 +117,6 @@ namespace CaissonMPM
     describe(const char       *what,
              char             *text,
              const std::size_t size) const override;
-
-    bool
-    is_guard(const void *address) const override
-    {
-      return arguments.is_near(address);
-    }
 
   private:
     using Arguments = UmatArguments;

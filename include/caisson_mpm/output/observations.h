@@ -58,8 +58,9 @@ namespace CaissonMPM
   public:
     Observations();
 
-    /** Read the entry. Throws BadInput for an observation that cannot be
-     * understood, or whose name is among @p taken. */
+    /** Read the entries. Throws BadInput for an observation that cannot be
+     * understood, or whose name is among @p taken, and for a quantity of a
+     * check that does not exist. */
     void
     initialize(const std::vector<std::string> &taken);
 
@@ -72,8 +73,24 @@ namespace CaissonMPM
     std::vector<double>
     values(const AllPoints &points, const double time) const;
 
+    /** The quantities of the checks of points. */
+    const std::vector<std::string> &
+    checked_quantities() const
+    {
+      return quantities;
+    }
+
+    /** Write these quantities of all points to a file, with their initial
+     * positions, their volumes and the time, in all digits: who compares them
+     * with an exact solution needs no more. Throws RunFailure. */
+    void
+    write_points(const std::string &path,
+                 const AllPoints   &points,
+                 const double       time) const;
+
   private:
-    std::string              entry;
+    std::string              entry, checks;
+    std::vector<std::string> quantities;
     std::vector<Observation> observations;
   };
 } // namespace CaissonMPM

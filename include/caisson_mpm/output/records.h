@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// All records of a run: the files history.csv and observations.csv, and the
-// same numbers in memory for the checks over time.
+// All records of a run: the files history.csv and observations.csv.
 #ifndef caisson_mpm_output_records_h
 #define caisson_mpm_output_records_h
 
@@ -9,29 +8,20 @@
 #include <caisson_mpm/output/observations.h>
 #include <caisson_mpm/output/row_file.h>
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** One number over time. */
-  struct Series
-  {
-    std::vector<double> time, value; // [n_records]
-  };
-
   /**
-   * The columns are those of history.csv and then the observations, in one row
-   * per record. observations.csv is written where there are observations.
-   * Owned by one rank; not collective.
+   * One row per record in each. observations.csv is written where there are
+   * observations. Owned by one rank; not collective.
    */
   class Records
   {
   public:
-    /** @p observations must outlive this object; @p counts are the names of
-     * the counts of RunTotals. */
+    /** @p counts are the names of the counts of RunTotals. */
     Records(const std::string              &directory,
             const Observations             &observations,
             const SceneParts               &scene,
@@ -69,30 +59,10 @@ namespace CaissonMPM
     void
     append(const HistoryRow &row, const std::vector<double> &observed);
 
-    /** The names of all columns but the time: of history.csv of this scene with
-     * these counts, and of the observations. */
-    static std::vector<std::string>
-    names(const SceneParts               &scene,
-          const std::vector<std::string> &counts,
-          const std::vector<std::string> &observed);
-
-    /** The names of all columns but the time. */
-    std::vector<std::string>
-    names() const;
-
-    /** A column by its name, from @p begin to @p end. Units: s. */
-    Series
-    series(const std::string &name,
-           const double       begin = 0.,
-           const double       end   = std::numeric_limits<double>::max()) const;
-
   private:
-    const Observations              &observations;
-    const SceneParts                 scene;
-    const std::vector<std::string>   counts;
-    RowFile                          history;
-    std::unique_ptr<RowFile>         observed_file;
-    std::vector<std::vector<double>> rows; // of both files
+    const SceneParts         scene;
+    RowFile                  history;
+    std::unique_ptr<RowFile> observed_file;
   };
 } // namespace CaissonMPM
 

@@ -55,9 +55,9 @@ namespace CaissonMPM
     Rows
     rows_until(const double time, std::string *const kept = nullptr) const;
 
-    /** Add a row, one value per column. Returns it with the digits of the file,
-     * as resume() does. Throws RunFailure where it cannot be written. */
-    std::vector<double>
+    /** Add a row, one value per column. Throws RunFailure where it cannot be
+     * written. */
+    void
     append(const std::vector<double> &values);
 
     /** Tells the header and all rows so far from others. */

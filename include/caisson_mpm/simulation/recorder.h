@@ -7,7 +7,6 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/checks/verification.h>
 #include <caisson_mpm/kernels/forward.h>
 #include <caisson_mpm/operators/wall_forces.h>
 #include <caisson_mpm/output/observations.h>
@@ -37,7 +36,7 @@ namespace CaissonMPM
   public:
     explicit Recorder(const RecordedParts &parts);
 
-    /** Throw BadInput for observations and checks that cannot be understood. */
+    /** Throw BadInput for observations that cannot be understood. */
     void
     check_parameters();
 
@@ -123,9 +122,9 @@ namespace CaissonMPM
     void
     write_frame();
 
-    /** Make the checks of the scene. Returns whether all are passed. */
-    bool
-    verify();
+    /** Write points.csv, if the checks of the scene need it. */
+    void
+    write_points();
 
     /** Write run.json and the error bar. */
     void
@@ -236,10 +235,9 @@ namespace CaissonMPM
     RunFacts
     own_facts(const std::string &status) const;
 
-    const RecordedParts parts;
+    const RecordedParts &parts;
 
     Observations observations;
-    Verification verification;
 
     enum class Terminal
     {

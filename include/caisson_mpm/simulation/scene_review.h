@@ -6,13 +6,7 @@
 
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/parameter_origins.h>
-#include <caisson_mpm/bodies/rigid_body.h>
-#include <caisson_mpm/domain/grid_lines.h>
-#include <caisson_mpm/domain/point_generator.h>
-#include <caisson_mpm/materials/soil.h>
-#include <caisson_mpm/operators/method_settings.h>
-#include <caisson_mpm/simulation/run_cost.h>
-#include <caisson_mpm/simulation/schedule.h>
+#include <caisson_mpm/simulation/recorded_parts.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <optional>
@@ -20,22 +14,6 @@
 
 namespace CaissonMPM
 {
-  /** What a review looks at. */
-  struct ReviewedScene
-  {
-    const GridLines      &lines;
-    const MethodSettings &method;
-    const PointGenerator &generator;
-    const Soil           &soil;
-    const RigidBody      &body;
-    const WaterTraits    &water;
-    const Schedule       &schedule;
-    double                body_mass;  // of its cells, kg
-    double                wave_speed; // least one of the layers, m/s
-    bool                  has_inertia_tolerance;
-    double                n_steps; // infinite where the end is not known
-  };
-
   /**
    * Warns of values that the program can compute with, but that are hardly
    * meant: units that are off by a thousand, boundaries that are too near, a
@@ -45,9 +23,18 @@ namespace CaissonMPM
   class SceneReview
   {
   public:
-    /** The warnings go to @p origins. */
-    SceneReview(const ReviewedScene &scene, ParameterOrigins &origins)
-      : scene(scene)
+    /** The warnings go to @p origins. The mass of the body is that of its cells
+     * (kg), the speed of waves the least one of all layers (m/s), and the
+     * number of steps infinite where the end is not known. */
+    SceneReview(const RecordedParts &parts,
+                const double         body_mass,
+                const double         wave_speed,
+                const double         n_steps,
+                ParameterOrigins    &origins)
+      : parts(parts)
+      , body_mass(body_mass)
+      , wave_speed(wave_speed)
+      , n_steps(n_steps)
       , origins(origins)
     {}
 
@@ -144,8 +131,9 @@ namespace CaissonMPM
           const std::string &unit,
           const std::string &text);
 
-    const ReviewedScene scene;
-    ParameterOrigins   &origins;
+    const RecordedParts &parts;
+    const double         body_mass, wave_speed, n_steps;
+    ParameterOrigins    &origins;
   };
 } // namespace CaissonMPM
 

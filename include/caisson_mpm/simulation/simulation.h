@@ -301,6 +301,7 @@ namespace CaissonMPM
     std::unique_ptr<PoreWater> water;
     SectionTimer               timer;
     Schedule                   schedule;
+    const RecordedParts        parts;
     Recorder                   recorder;
 
     // of the ranks, largest over mean work, after the last cut into parts; and

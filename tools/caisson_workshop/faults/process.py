@@ -28,7 +28,7 @@ FOREIGN = re.compile(
 )
 OWN_WORDS = {
     Status.BAD_INPUT: re.compile(r"^bad input: \S", re.M),
-    Status.FAILURE: re.compile(r"^failure: \S|\bchecks? failed", re.M),
+    Status.FAILURE: re.compile(r"^failure: \S", re.M),
 }
 
 
