@@ -89,8 +89,6 @@ namespace CaissonMPM
     tension_cutoff              = n.tension_cutoff;
     densest_void_ratio          = known(n.densest);
     loosest_void_ratio          = known(n.loosest);
-    if (!law_value("Youngs modulus")) // that of NGI-ADP is none of its entries
-      youngs_modulus.reset();
   }
 
   void

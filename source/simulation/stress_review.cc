@@ -167,7 +167,7 @@ namespace CaissonMPM
         const double        ratio =
           youngs && above ? std::max(*youngs / *above, *above / *youngs) : 1.;
         if (ratio > largest)
-          doubt(soil.section() + "/Youngs modulus",
+          doubt(soil.section() + ": Young's modulus",
                 *youngs,
                 "Pa",
                 "differs from that of the layer above by a factor of " +
