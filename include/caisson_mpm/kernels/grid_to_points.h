@@ -209,24 +209,19 @@ namespace CaissonMPM
                  const double       share_of_body,
                  CellField<>       &field)
       {
-        // the coefficients of {1, xi, eta, xi eta} of each N_I
-        constexpr double shape[4][4] = {{1., -1., -1., 1.},
-                                        {0., 1., 0., -1.},
-                                        {0., 0., 1., -1.},
-                                        {0., 0., 0., 1.}};
-        const auto       relative    = [&](const int d) {
+        const auto relative = [&](const int d) {
           return at_node.value[d] - share_of_body * corner.velocity[d];
         };
         const double free   = relative(corner.free);
-        const auto   change = [&](const int d) {
-          return free * corner.q[d] - relative(d);
+        const auto   change = [&](const int d, double *of_field) {
+          double at_corners[4]      = {}, c[4];
+          at_corners[corner.corner] = free * corner.q[d] - relative(d);
+          coefficients(at_corners, c);
+          for (int k = 0; k < 4; ++k)
+            of_field[k] += c[k];
         };
-        const double r = change(0), z = change(1);
-        for (int k = 0; k < 4; ++k)
-          {
-            field.r[k] += r * shape[corner.corner][k];
-            field.z[k] += z * shape[corner.corner][k];
-          }
+        change(0, field.r);
+        change(1, field.z);
       }
 
       /** The same in all fields of a cell at the body. */
