@@ -202,17 +202,21 @@ namespace CaissonMPM
     for (unsigned int c = 0; c < n_cells(); ++c)
       for (unsigned int face = 0; face < 4; ++face)
         {
-          const auto beyond = lines_.tree().neighbors(global_numbers[c], face);
-          if (!beyond)
+          if (at_side(c, face))
             continue;
-          const bool is_one = beyond->front() == beyond->back();
-          for (int i = 0; i < (is_one ? 1 : Kernels::neighbors_per_face); ++i)
+          const auto beyond    = iterators[c]->neighbor(face);
+          const bool is_halved = beyond->has_children();
+          for (int i = 0; i < (is_halved ? Kernels::neighbors_per_face : 1);
+               ++i)
             {
-              const unsigned int neighbor = local_number((*beyond)[i]),
-                                 place    = place_of_neighbor(c, face) + i;
-              if (neighbor == numbers::invalid_unsigned_int)
+              const auto cell =
+                is_halved ? iterators[c]->neighbor_child_on_subface(face, i) :
+                            beyond;
+              if (cell->is_artificial())
                 continue;
-              neighbors[place] = neighbor;
+              const unsigned int neighbor = local_number(number_of(cell)),
+                                 place    = place_of_neighbor(c, face) + i;
+              neighbors[place]            = neighbor;
               if (!rigid[neighbor])
                 soil_neighbors[place] = neighbor;
             }
@@ -317,7 +321,7 @@ namespace CaissonMPM
   BackgroundGrid::at_side(const unsigned int cell,
                           const unsigned int face) const
   {
-    return !lines_.tree().neighbors(global_numbers[cell], face);
+    return iterators[cell]->at_boundary(face);
   }
 
   // ------------------------------------------------------------ motion

@@ -143,7 +143,7 @@ namespace CaissonMPM
       }
   }
 
-  // ------------------------------------------------------------ neighbors
+  // ------------------------------------------------------------ nodes
 
   std::optional<std::array<LatticeNode, 2>>
   CellTree::masters_of(const LatticeNode &node) const
@@ -168,21 +168,5 @@ namespace CaissonMPM
           return Edge{{{node.column, b.row}, {node.column, b.row + b.size}}};
       }
     return {};
-  }
-
-  std::optional<std::array<GlobalCell, 2>>
-  CellTree::neighbors(const GlobalCell cell, const unsigned int face) const
-  {
-    using Pair              = std::array<GlobalCell, 2>;
-    const CellBlock   &b    = block(cell);
-    const unsigned int line = face < 2 ? b.column : b.row;
-    const unsigned int end  = (face < 2 ? n_columns : n_rows) * root_size();
-    if (face % 2 == 0 ? line == 0 : line + b.size == end)
-      return {};
-    const unsigned int beyond = face % 2 == 0 ? line - 1 : line + b.size,
-                       last   = b.size - 1;
-    if (face < 2)
-      return Pair{{cell_at(beyond, b.row), cell_at(beyond, b.row + last)}};
-    return Pair{{cell_at(b.column, beyond), cell_at(b.column + last, beyond)}};
   }
 } // namespace CaissonMPM

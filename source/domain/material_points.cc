@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -26,7 +27,7 @@ namespace CaissonMPM
   MaterialPoints::get(const int block, const int lane) const
   {
     MaterialPoint p;
-    p.material = headers[block].material;
+    p.material = static_cast<unsigned int>(headers[block].material);
     for_each_field(
       [&](const PointField &, const auto &in_block, const auto &in_point) {
         in_point(p) = in_block(blocks[block], histories[block])[lane];
@@ -94,12 +95,14 @@ namespace CaissonMPM
   }
 
   int
-  MaterialPoints::last_block(const unsigned int cell, const int material) const
+  MaterialPoints::last_block(const unsigned int cell,
+                             const double       material) const
   {
     int result = -1;
-    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+    for_each_block(cell, [&](const int b) {
       if (headers[b].material == material)
         result = b;
+    });
     return result;
   }
 
@@ -108,6 +111,7 @@ namespace CaissonMPM
   {
     if (block < 0)
       return;
+    __builtin_prefetch(&headers[block]);
     for (int i = Place::block; i < Place::user_state; i += block_size)
       __builtin_prefetch(blocks[block].r + i - Place::block);
   }
@@ -115,7 +119,7 @@ namespace CaissonMPM
   int
   MaterialPoints::new_block(const unsigned int cell,
                             const int          after,
-                            const short        material)
+                            const unsigned int material)
   {
     const auto &pool = handler->get_property_pool();
     if (pool.n_registered_slots() == n_reserved)
@@ -125,31 +129,56 @@ namespace CaissonMPM
         handler->reserve(n_reserved);
       }
     const auto &iterator = grid.cell_iterator(cell);
-    const int   block    = handler
-                        ->insert_particle(iterator->center(),
-                                          Point<2>(.5, .5),
-                                          0, // its points have numbers
-                                          iterator)
-                        ->get_local_index();
+    // particles() gives it a place and a number
+    const int added =
+      handler->insert_particle(Point<2>(), Point<2>(), 0, iterator)
+        ->get_local_index();
     find_blocks();
-    if (headers.empty()) // before memory is touched
+    if (next_block.empty()) // before memory is touched
       use_large_pages(*handler);
-    if (headers.size() < pool.n_slots())
-      headers.resize(pool.n_slots());
-    int &link      = after >= 0 ? headers[after].next : first_block[cell];
-    headers[block] = {link, 0, material};
-    link           = block;
-    return block;
+    if (next_block.size() < pool.n_slots())
+      next_block.resize(pool.n_slots());
+    headers[added] = {double(material), 0.};
+    list_blocks(cell);
+    // the handler has appended it
+    const int result = after >= 0 ? next_block[after] : first_block[cell];
+    for (int b = result; b != added; b = next_block[b])
+      swap_blocks(b, added);
+    return result;
   }
 
   void
-  MaterialPoints::remove_block(const unsigned int cell, const int block)
+  MaterialPoints::remove_block(const unsigned int cell, int block)
   {
-    auto particle =
-      handler->particles_in_cell(grid.cell_iterator(cell)).begin();
-    while (static_cast<int>(particle->get_local_index()) != block)
-      ++particle;
-    handler->remove_particle(particle);
+    // the handler would put the last block in its place
+    for (; next_block[block] >= 0; block = next_block[block])
+      swap_blocks(block, next_block[block]);
+    const auto &iterator = grid.cell_iterator(cell);
+    handler->remove_particle(
+      std::next(handler->particles_in_cell(iterator).begin(),
+                handler->n_particles_in_cell(iterator) - 1));
+    list_blocks(cell);
+  }
+
+  void
+  MaterialPoints::swap_blocks(const int a, const int b)
+  {
+    auto      &pool = handler->get_property_pool();
+    const auto of_a = pool.get_properties(a), of_b = pool.get_properties(b);
+    std::swap_ranges(of_a.begin(), of_a.end(), of_b.begin());
+  }
+
+  void
+  MaterialPoints::list_blocks(const unsigned int cell)
+  {
+    int *link = &first_block[cell];
+    for (const auto &particle :
+         handler->particles_in_cell(grid.cell_iterator(cell)))
+      {
+        *link = particle.get_local_index();
+        link  = &next_block[*link];
+      }
+    *link = -1;
   }
 
   void
@@ -166,23 +195,23 @@ namespace CaissonMPM
            ExcMessage("a point belongs to the rank that owns its cell"));
     changed[cell] = true;
     include_in_sums(cell, point);
-    const short material = point.material;
+    const unsigned int material = point.material;
     // the last block of this material, or the last block of the cell
     int block = -1, last = -1;
-    for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-      {
-        last = b;
-        if (headers[b].material == material)
-          block = b;
-      }
+    for_each_block(cell, [&](const int b) {
+      last = b;
+      if (headers[b].material == material)
+        block = b;
+    });
     active_cells_changed |= last < 0;
     if (block < 0 || headers[block].count == block_size)
       block = new_block(cell, block >= 0 ? block : last, material);
-    set(block, headers[block].count++, point);
+    const int lane = static_cast<int>(headers[block].count++);
+    set(block, lane, point);
     // An odd count begins a register, whatever the width of the kernels. They
     // have not moved the padding of the registers without points.
-    if (headers[block].count % 2 == 1)
-      pad(block, headers[block].count, block_size);
+    if (lane % 2 == 0)
+      pad(block, lane + 1, block_size);
     ++n_points_;
   }
 
@@ -194,21 +223,12 @@ namespace CaissonMPM
     filled_volume[cell] -= blocks[block].volume[lane];
     changed[cell] = true;
     // fill the gap with the last point of this material
-    int last = block, before = -1;
-    for (int b = first_block[cell], previous = -1; b >= 0;
-         previous = b, b = headers[b].next)
-      if (headers[b].material == headers[block].material)
-        {
-          last   = b;
-          before = previous;
-        }
-    const int last_lane = --headers[last].count;
+    const int last      = last_block(cell, headers[block].material);
+    const int last_lane = static_cast<int>(--headers[last].count);
     if (last != block || last_lane != lane)
       copy_lane(last, last_lane, block, lane);
-    if (headers[last].count == 0)
+    if (last_lane == 0)
       {
-        (before >= 0 ? headers[before].next : first_block[cell]) =
-          headers[last].next;
         remove_block(cell, last);
         active_cells_changed |= first_block[cell] < 0;
       }
@@ -235,7 +255,8 @@ namespace CaissonMPM
     assert_settled();
     return {blocks,
             histories,
-            headers.data(),
+            headers,
+            next_block.data(),
             first_block.data(),
             active_cells.data(),
             static_cast<unsigned int>(active_cells.size()),
@@ -350,7 +371,7 @@ namespace CaissonMPM
                      of_user_point = 100.;
     const double per_step = 1. / std::max(1u, n_relocations - first_relocation);
     const auto   is_of_user = [this](const Kernels::BlockHeader &block) {
-      const std::size_t m = block.material;
+      const auto m = static_cast<std::size_t>(block.material);
       return m < user_materials.size() && user_materials[m];
     };
     std::vector<unsigned int> costs(grid.n_global_cells(), 0);
@@ -361,10 +382,11 @@ namespace CaissonMPM
                         (first_block[cell] >= 0 ? of_cell_with_points : 0.) +
                         of_yielding_block * n_yielding[cell] +
                         of_moving_point * per_step * n_moved[cell];
-          for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+          for_each_block(cell, [&](const int b) {
             cost +=
               of_block +
               (is_of_user(headers[b]) ? of_user_point * headers[b].count : 0.);
+          });
           costs[index_of(grid.global_number(cell))] =
             static_cast<unsigned int>(cost);
         }
@@ -490,7 +512,7 @@ namespace CaissonMPM
   MaterialPoints::clear_blocks(const unsigned long n_blocks)
   {
     handler = make_handler(n_blocks);
-    headers.clear();
+    next_block.clear();
     clear_lists();
   }
 

@@ -59,6 +59,7 @@ namespace CaissonMPM
     double *const begin    = pool.get_properties(0).data();
     const long    distance = pool.n_properties_per_slot() * sizeof(double);
     const auto    at       = [&](const int place) { return begin + place; };
+    headers    = {reinterpret_cast<BlockHeader *>(at(Place::header)), distance};
     blocks     = {reinterpret_cast<PointBlock *>(at(Place::block)), distance};
     histories  = {reinterpret_cast<PointHistory *>(at(Place::history)),
                   distance};
@@ -71,43 +72,47 @@ namespace CaissonMPM
     if (active_cells_changed)
       collect_active_cells();
     // The sort of ParticleHandler would search for the cell of each particle.
-    auto                     ordered = make_handler(headers.size());
-    std::vector<BlockHeader> ordered_headers;
+    auto &pool    = handler->get_property_pool();
+    auto  ordered = make_handler(pool.n_slots());
     for (const unsigned int cell : active_cells)
-      {
-        int block         = first_block[cell];
-        first_block[cell] = ordered_headers.size();
-        for (; block >= 0; block = headers[block].next)
-          {
-            auto &pool = handler->get_property_pool();
-            ordered->insert_particle(pool.get_location(block),
-                                     pool.get_reference_location(block),
-                                     pool.get_id(block),
-                                     grid.cell_iterator(cell),
-                                     pool.get_properties(block));
-            if (ordered_headers.empty()) // before memory is touched
-              use_large_pages(*ordered);
-            ordered_headers.push_back(headers[block]);
-            if (headers[block].next >= 0)
-              ordered_headers.back().next = ordered_headers.size();
-          }
-      }
+      for_each_block(cell, [&](const int block) {
+        ordered->insert_particle(pool.get_location(block),
+                                 pool.get_reference_location(block),
+                                 pool.get_id(block),
+                                 grid.cell_iterator(cell),
+                                 pool.get_properties(block));
+        if (ordered->get_property_pool().n_registered_slots() == 1)
+          use_large_pages(*ordered); // before memory is touched
+      });
     handler = std::move(ordered);
-    headers.swap(ordered_headers);
     find_blocks();
+    for (const unsigned int cell : active_cells)
+      list_blocks(cell);
+  }
+
+  const MaterialPoints::ParticleHandler &
+  MaterialPoints::particles()
+  {
+    assert_settled();
+    auto &pool = handler->get_property_pool();
+    for (const unsigned int cell : active_cells)
+      for_each_block(cell, [&](const int block) {
+        Point<2> mean;
+        for (int lane = 0; lane < headers[block].count; ++lane)
+          mean += Point<2>(blocks[block].r[lane], blocks[block].z[lane]) /
+                  headers[block].count;
+        pool.set_location(block, mean);
+        pool.set_reference_location(block,
+                                    to_reference(grid.geometry(cell), mean));
+        pool.set_id(block, block * grid.n_ranks() + grid.owner_of(cell));
+      });
+    handler->update_cached_numbers();
+    return *handler;
   }
 
   void
   MaterialPoints::prepare_for_repartition()
   {
-    // the blocks of a cell travel in the order that the handler has
-    put_blocks_in_order();
-    for (unsigned int block = 0; block < headers.size(); ++block)
-      {
-        double *const properties    = blocks[block].r - Place::block;
-        properties[Place::material] = headers[block].material;
-        properties[Place::count]    = headers[block].count;
-      }
     handler->prepare_for_coarsening_and_refinement();
   }
 
@@ -116,25 +121,15 @@ namespace CaissonMPM
   {
     handler->unpack_after_coarsening_and_refinement();
     n_reserved = handler->get_property_pool().n_slots();
-    headers.assign(n_reserved, {-1, 0, 0});
+    next_block.resize(n_reserved);
     find_blocks();
     clear_lists();
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (grid.is_owned(cell))
         {
-          int *link = &first_block[cell];
-          for (const auto &particle :
-               handler->particles_in_cell(grid.cell_iterator(cell)))
-            {
-              const auto properties = particle.get_properties();
-              *link                 = particle.get_local_index();
-              headers[*link]        = {-1,
-                                       static_cast<short>(properties[Place::count]),
-                                       static_cast<short>(
-                                  properties[Place::material])};
-              n_points_ += headers[*link].count;
-              link = &headers[*link].next;
-            }
+          list_blocks(cell);
+          for_each_block(cell,
+                         [&](const int b) { n_points_ += headers[b].count; });
         }
     rebuild_sums();
     settle();
@@ -151,8 +146,9 @@ namespace CaissonMPM
     });
     // a law may compute a register in another way for the sake of its padding
     for (const unsigned int cell : active_cells)
-      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-        pad(b, headers[b].count, block_size);
+      for_each_block(cell, [&](const int b) {
+        pad(b, static_cast<int>(headers[b].count), block_size);
+      });
   }
 
   // ------------------------------------------------------------ lost points

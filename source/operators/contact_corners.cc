@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/kernels/cell_moments.h>
-#include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/kernels/nodal_sums.h>
 #include <caisson_mpm/kernels/step_context.h>
@@ -42,12 +42,14 @@ namespace CaissonMPM
                                    {1, 4, 3, 6},
                                    {2, 3, 5, 7},
                                    {3, 6, 7, 8}};
-      // N_i = sum_a shape[i][a] {1, xi, eta, xi eta}_a
-      constexpr double                     shape[4][4] = {{1., -1., -1., 1.},
-                                                          {0., 1., 0., -1.},
-                                                          {0., 0., 1., -1.},
-                                                          {0., 0., 0., 1.}};
-      std::array<std::array<double, 4>, 4> result      = {};
+      double shape[4][4]; // N_i = sum_a shape[i][a] {1, xi, eta, xi eta}_a
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          double at_corners[4] = {};
+          at_corners[i]        = 1.;
+          Kernels::coefficients(at_corners, shape[i]);
+        }
+      std::array<std::array<double, 4>, 4> result = {};
       for (unsigned int i = 0; i < 4; ++i)
         for (unsigned int j = 0; j < 4; ++j)
           for (unsigned int a = 0; a < 4; ++a)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/kernels/cell_moments.h>
 #include <caisson_mpm/kernels/step_context.h>
 #include <caisson_mpm/operators/selective_mass.h>
@@ -83,13 +84,14 @@ namespace CaissonMPM
         const double *const       m    = step.moments[cell].mass;
         const unsigned int *const node = step.grid.nodes[cell].node;
         Cell                      c = {{{node[0], node[1], node[2], node[3]}},
-                                       {{added * (m[0] - m[1] - m[2] + m[3]),
-                                         added * (m[1] - m[3]),
-                                         added * (m[2] - m[3]),
-                                         added * m[3]}},
+                                       {},
                                        1. / (added * m[0])};
+        Kernels::moments_to_corners(m, c.mass.data());
         for (unsigned int k = 0; k < 4; ++k)
-          nodes[node[k]].deformation_mass += c.mass[k];
+          {
+            c.mass[k] *= added;
+            nodes[node[k]].deformation_mass += c.mass[k];
+          }
         cells.push_back(c);
       }
   }

@@ -3,10 +3,19 @@
 // The material points as they are generated, also in a mesh that is distorted.
 #include <caisson_mpm/base/text.h>
 
+#include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/vector.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include <deal.II/particles/data_out.h>
+#include <deal.II/particles/utilities.h>
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "../shared/scene.h"
@@ -320,6 +329,124 @@ check_padding()
 
 
 
+/** The blocks of a cell that are not where they belong: those of a material
+ * come together, and all but the last of them are full. */
+unsigned int
+n_out_of_order(const MaterialPoints::ParticleHandler &particles,
+               const BackgroundGrid                  &grid,
+               const unsigned int                     cell)
+{
+  unsigned int         result = 0;
+  std::set<double>     materials;
+  Kernels::BlockHeader before = {-1., 0.};
+  for (const auto &particle :
+       particles.particles_in_cell(grid.cell_iterator(cell)))
+    {
+      const auto numbers = particle.get_properties();
+      if (numbers[0] == before.material)
+        result += before.count != Kernels::block_size;
+      else
+        result += !materials.insert(numbers[0]).second;
+      before = {numbers[0], numbers[1]};
+    }
+  return result;
+}
+
+/** The largest error of r as deal.II interpolates it to the particles, by their
+ * numbers. */
+double
+error_of_interpolation(const MaterialPoints::ParticleHandler &particles,
+                       const BackgroundGrid                  &grid)
+{
+  dealii::Vector<double> at_nodes(grid.dof_handler().n_dofs()),
+    at_particles(particles.get_next_free_particle_index());
+  dealii::VectorTools::interpolate(grid.mapping(),
+                                   grid.dof_handler(),
+                                   dealii::ScalarFunctionFromFunctionObject<2>(
+                                     [](const dealii::Point<2> &x) {
+                                       return x[0];
+                                     }),
+                                   at_nodes);
+  dealii::Particles::Utilities::interpolate_field_on_particles(
+    grid.dof_handler(), particles, at_nodes, at_particles);
+  double worst = 0.;
+  for (const auto &particle : particles)
+    worst = std::max(worst,
+                     std::abs(at_particles[particle.get_id()] -
+                              particle.get_location()[0]));
+  return worst;
+}
+
+/** The number of particles that deal.II draws. */
+unsigned int
+n_drawn(const MaterialPoints::ParticleHandler &particles)
+{
+  dealii::Particles::DataOut<2> drawing;
+  drawing.build_patches(particles);
+  std::stringstream text;
+  drawing.write_gnuplot(text);
+  unsigned int result = 0;
+  for (std::string line; std::getline(text, line);)
+    result += !line.empty() && line[0] != '#';
+  return result;
+}
+
+/** Tools of deal.II see the points, as blocks that lie in their cells. */
+void
+check_particles()
+{
+  Scene s(caisson);
+  s.generator.generate(s.grid, s.body.shape(), s.soil, s.points);
+  std::vector<std::pair<unsigned int, MaterialPoint>> others;
+  s.points.for_each([&](MaterialPoint p, const unsigned int cell) {
+    p.material = 1 + others.size() % 2;
+    others.emplace_back(cell, p);
+  });
+  for (const auto &[cell, p] : others)
+    s.points.add(cell, p);
+  s.points.settle();
+  for (const double size : {.03, .03, .2, .06}) // split and merge
+    s.points.adapt([&](const unsigned int) {
+      return std::array<double, 2>{{size, size}};
+    });
+  const auto          &particles = s.points.particles();
+  unsigned int         wrong = 0, n_points = 0;
+  double               outside = 0.;
+  dealii::Tensor<1, 2> moments;
+  for (unsigned int cell = 0; cell < s.grid.n_cells(); ++cell)
+    wrong += n_out_of_order(particles, s.grid, cell);
+  for (const auto &particle : particles)
+    {
+      const double count = particle.get_properties()[1];
+      const auto   x     = s.grid.mapping().transform_real_to_unit_cell(
+        particle.get_surrounding_cell(), particle.get_location());
+      outside =
+        std::max(outside, dealii::GeometryInfo<2>::distance_to_unit_cell(x));
+      n_points += static_cast<unsigned int>(count);
+      moments += count * particle.get_location();
+    }
+  s.points.for_each(
+    [&](const MaterialPoint &p, const unsigned int) { moments -= p.position; });
+  const auto n = particles.n_global_particles();
+  std::printf(
+    "all points lie in particles: %s, and deal.II draws %s of these\n",
+    n_points == s.points.n_points() ? "yes" : "no",
+    n_drawn(particles) == n ? "all" : "not all");
+  verdict("particles without a number of their own",
+          double(n) - particles.locally_owned_particle_ids().n_elements(),
+          0.);
+  verdict("particles outside their cell, by cells", outside, 1e-12);
+  verdict("mean place of the points: error of the sum",
+          moments.norm() / n_points,
+          1e-12);
+  verdict("blocks out of order in their cells", wrong, 0.);
+  verdict("interpolation to particles: error",
+          error_of_interpolation(particles, s.grid),
+          1e-12);
+}
+
+
+
 /** A law of the user costs more, by its points: ranks share the work by that.
  */
 void
@@ -368,6 +495,8 @@ main(int argc, char *argv[])
   check_start_at_surface();
   heading("padding of blocks");
   check_padding();
+  heading("particles of deal.II");
+  check_particles();
   heading("costs of cells");
   check_costs();
   return 0;

@@ -27,7 +27,7 @@ difference_of_points(const Scene &a, const Scene &b)
       const auto *x = reinterpret_cast<const double *>(&a.blocks[i]),
                  *y = reinterpret_cast<const double *>(&b.blocks[i]);
       for (unsigned int j = 0; j < sizeof(PointBlock) / sizeof(double); ++j)
-        if (j % block_size < static_cast<unsigned int>(a.headers[i].count))
+        if (j % block_size < a.headers[i].count)
           worst =
             std::max(worst, std::abs(x[j] - y[j]) / (1. + std::abs(x[j])));
     }

@@ -99,7 +99,7 @@ check_work(const double axisymmetric)
     volume += moments[c].full * CellMap(s.geometry[c]).volume(axisymmetric);
   unsigned int i = 0;
   for (unsigned int c = 0; c < n_cells; ++c)
-    for (int b = s.first[c]; b >= 0; b = s.headers[b].next)
+    for (int b = s.first[c]; b >= 0; b = s.next[b])
       for (int lane = 0; lane < s.headers[b].count; ++lane, ++i)
         volume += (1. - moments[c].full) * s.points[i].volume;
   // so slow that the stress hardly changes
@@ -306,7 +306,7 @@ filtered_beside(const double times_as_stiff)
   Scene s = make_scene(1., false);
   fill_blocks(s);
   s.stiffer.p_wave_modulus *= times_as_stiff;
-  s.headers[s.headers[s.first[0]].next].material = 1;
+  s.headers[s.next[s.first[0]]].material = 1;
   const Sums sums = collect(s, *select_kernels("auto"), gauss);
   const auto rest = [](double, double) {
     return std::array<double, 2>{{0., 0.}};

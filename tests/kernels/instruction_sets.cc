@@ -44,7 +44,7 @@ difference_of_instruction_sets(const double    axisymmetric,
             const double *x = reinterpret_cast<double *>(&base.blocks[i]),
                          *y = reinterpret_cast<double *>(&other.blocks[i]);
             for (unsigned int j = 0; j < sizeof(PointBlock) / 8; ++j)
-              if (j % 8 < static_cast<unsigned int>(base.headers[i].count))
+              if (j % 8 < base.headers[i].count)
                 worst = std::max(worst,
                                  std::abs(x[j] - y[j]) / (1. + std::abs(x[j])));
           }

@@ -28,7 +28,7 @@ struct Scene
   std::vector<PointBlock>     blocks;
   std::vector<PointHistory>   histories;
   std::vector<BlockHeader>    headers;
-  std::vector<int>            first;
+  std::vector<int>            next, first;
   std::vector<unsigned int>   active;
   std::vector<double>         filled;
   std::vector<double>         filled_at_node = std::vector<double>(n_nodes, 1.);
@@ -52,6 +52,7 @@ struct Scene
     return {blocks.data(),
             histories.data(),
             headers.data(),
+            next.data(),
             first.data(),
             active.data(),
             n_cells,
@@ -177,6 +178,7 @@ fill_blocks(Scene &s)
   s.blocks.clear();
   s.histories.clear();
   s.headers.clear();
+  s.next.clear();
   s.first.assign(n_cells, -1);
   s.filled.assign(n_cells, 0.);
   s.changed.assign(n_cells, true);
@@ -196,8 +198,9 @@ fill_blocks(Scene &s)
         {
           const int b     = s.blocks.size();
           const int count = std::min<int>(8, mine.size() - k);
-          (k == 0 ? s.first[c] : s.headers.back().next) = b;
-          s.headers.push_back({-1, static_cast<short>(count), 0});
+          (k == 0 ? s.first[c] : s.next.back()) = b;
+          s.headers.push_back({0., double(count)});
+          s.next.push_back(-1);
           s.blocks.push_back(PointBlock());
           s.histories.push_back(PointHistory());
           PointBlock &block = s.blocks.back();
@@ -226,7 +229,7 @@ for_all(Scene                                                       &s,
 {
   unsigned int i = 0;
   for (unsigned int c = 0; c < n_cells; ++c)
-    for (int b = s.first[c]; b >= 0; b = s.headers[b].next)
+    for (int b = s.first[c]; b >= 0; b = s.next[b])
       for (int lane = 0; lane < s.headers[b].count; ++lane)
         action(s.blocks[b], lane, s.points[i++]);
 }

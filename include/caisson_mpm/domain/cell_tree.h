@@ -111,14 +111,6 @@ namespace CaissonMPM
     std::optional<std::array<LatticeNode, 2>>
     masters_of(const LatticeNode &node) const;
 
-    /**
-     * Return the first and the last cell beyond face 0 (left), 1, 2 (below) or
-     * 3 of a cell; the same twice if there is one, nothing at the sides of the
-     * lattice.
-     */
-    std::optional<std::array<GlobalCell, 2>>
-    neighbors(const GlobalCell cell, const unsigned int face) const;
-
   private:
     /** A node of the tree. */
     struct Branch

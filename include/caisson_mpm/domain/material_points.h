@@ -27,22 +27,25 @@ namespace CaissonMPM
   /**
    * All material points of the soil.
    *
-   * They lie in blocks of eight per cell and material (kernels/blocks.h), whose
-   * lists only this class and the kernels follow; others see one point at a
-   * time as a MaterialPoint. A ParticleHandler owns the blocks: each is a
-   * particle of the cell, as MatrixFree makes batches of cells, and its slot in
-   * the PropertyPool is the number of the block. A point that leaves its cell
-   * is copied into a block of the next one.
+   * They lie in blocks of eight per cell and material (kernels/blocks.h), which
+   * only this class and the kernels follow; others see one point at a time as a
+   * MaterialPoint. A ParticleHandler holds the blocks: each is a particle of
+   * the cell, as MatrixFree makes batches of cells, and its slot in the
+   * PropertyPool is the number of the block. A point that leaves its cell is
+   * copied into a block of the next one.
    *
-   * Invariants: of the blocks of one cell and material all but the last are
-   * full; every point lies in the cell that owns its block, up to round-off,
-   * and on the rank that owns this cell; cells of the body hold none. The
-   * blocks of a cell may lie anywhere; now and then they are put in the order
-   * of the cells.
+   * Invariants: the blocks of a cell come in the order of its particles, those
+   * of one material together, and of these all but the last are full; every
+   * point lies in the cell that owns its block, up to round-off, and on the
+   * rank that owns this cell; cells of the body hold none. The blocks of a cell
+   * may lie anywhere in the memory; now and then they are put in the order of
+   * the cells.
    */
   class MaterialPoints
   {
   public:
+    using ParticleHandler = dealii::Particles::ParticleHandler<2>;
+
     explicit MaterialPoints(BackgroundGrid &grid);
 
     /** Forget all points, and make room for as many as the cells of this rank
@@ -91,6 +94,13 @@ namespace CaissonMPM
     Kernels::PointsView
     view();
 
+    /** Return the blocks as particles for the tools of deal.II. Each has a
+     * number of its own and lies at the mean place of its points; its
+     * properties are the BlockHeader, and then the points. Collective. Valid as
+     * view(), until the points move. */
+    const ParticleHandler &
+    particles();
+
     /** Return the cells of this rank that have points. Valid as view(). */
     const std::vector<unsigned int> &
     cells_with_points() const;
@@ -101,8 +111,9 @@ namespace CaissonMPM
     void
     for_each_material(const unsigned int cell, const Action &action) const
     {
-      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
-        action(headers[b].material);
+      for_each_block(cell, [&](const int b) {
+        action(static_cast<unsigned int>(headers[b].material));
+      });
     }
 
     /** Return what the update of the points returns in a step, with room for
@@ -198,7 +209,7 @@ namespace CaissonMPM
           action(dealii::Point<2>(p.r[lane], p.z[lane]),
                  dealii::Tensor<1, 2>({p.velocity_r[lane], p.velocity_z[lane]}),
                  p.mass[lane],
-                 headers[b].material,
+                 static_cast<unsigned int>(headers[b].material),
                  cell);
         });
     }
@@ -242,16 +253,13 @@ namespace CaissonMPM
     // points to come whose blocks are asked for: the memory takes that long
     static constexpr unsigned int steps_ahead = 3;
 
-    using ParticleHandler = dealii::Particles::ParticleHandler<2>;
-
     /** Where the properties of a block begin. Its first number fills a cache
      * line, as large arrays begin 16 bytes behind one (main.cc). */
     struct Place
     {
       enum : int
       {
-        material,
-        count,
+        header     = 0,
         block      = 6,
         history    = block + sizeof(Kernels::PointBlock) / sizeof(double),
         user_state = history + sizeof(Kernels::PointHistory) / sizeof(double)
@@ -261,14 +269,24 @@ namespace CaissonMPM
     // with a cell in or near which it lies
     using PlacedPoint = std::pair<unsigned int, MaterialPoint>;
 
+    /** Call action(block) for every block of a cell. */
+    template <typename Action>
+    void
+    for_each_block(const unsigned int cell, const Action &action) const
+    {
+      for (int b = first_block[cell]; b >= 0; b = next_block[b])
+        action(b);
+    }
+
     /** Call action(block, lane) for every point of a cell. */
     template <typename Action>
     void
     for_each_lane(const unsigned int cell, const Action &action) const
     {
-      for (int b = first_block[cell]; b >= 0; b = headers[b].next)
+      for_each_block(cell, [&](const int b) {
         for (int lane = 0; lane < headers[b].count; ++lane)
           action(b, lane);
+      });
     }
 
     /** Take out @p n points, listed in the order of their blocks. */
@@ -299,14 +317,23 @@ namespace CaissonMPM
     /** Return the block of a cell that takes more points of a material, or -1
      * if it has none of it. */
     int
-    last_block(const unsigned int cell, const int material) const;
+    last_block(const unsigned int cell, const double material) const;
     /** Ask for a block that is soon needed; -1: none. */
     void
     prefetch(const int block) const;
+    /** Add an empty block of a material to a cell behind the block @p after; -1:
+     * as the first one. */
     int
-    new_block(const unsigned int cell, const int after, const short material);
+    new_block(const unsigned int cell,
+              const int          after,
+              const unsigned int material);
     void
-    remove_block(const unsigned int cell, const int block);
+    remove_block(const unsigned int cell, int block);
+    void
+    swap_blocks(const int a, const int b);
+    /** List the blocks of a cell as its particles in the handler. */
+    void
+    list_blocks(const unsigned int cell);
     /** Return a handler with room for so many blocks. */
     std::unique_ptr<ParticleHandler>
     make_handler(const unsigned long n_blocks);
@@ -373,13 +400,15 @@ namespace CaissonMPM
     unsigned int                         n_reserved = 0; // blocks
     Kernels::Rows<Kernels::PointBlock>   blocks;
     Kernels::Rows<Kernels::PointHistory> histories;
-    Kernels::Rows<double>             user_state; // [block_size][n_user_state]
-    std::vector<Kernels::BlockHeader> headers;
-    unsigned int                      n_user_state_ = 0;
-    std::vector<bool>                 user_materials; // [n_materials]
-    // [n_cells], -1: none. For a ghost cell it is only a flag and leads to no
-    // block: 0 = its owner has points there, -1 = none
-    std::vector<int>          first_block;
+    Kernels::Rows<Kernels::BlockHeader>  headers;
+    Kernels::Rows<double> user_state; // [block_size][n_user_state]
+    unsigned int          n_user_state_ = 0;
+    std::vector<bool>     user_materials; // [n_materials]
+    // The order of the particles in their cells, for the kernels: only
+    // list_blocks() writes it. [n_cells] and [n_blocks], -1: none. For a ghost
+    // cell the first block is only a flag and leads to none: 0 = its owner has
+    // points there, -1 = none
+    std::vector<int>          first_block, next_block;
     std::vector<unsigned int> active_cells;
     std::vector<double>       filled_volume; // [n_cells]
     // [n_cells], in r and z

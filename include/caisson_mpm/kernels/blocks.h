@@ -4,12 +4,12 @@
 // class MaterialPoints.
 //
 // MPs lie in blocks of eight per cell (structure of arrays): a block belongs to
-// one cell and one material, and the blocks of a cell form a singly linked
-// list. Lanes beyond the count of a block are padding: they repeat a valid
-// point with mass and volume zero, so that kernels may compute on all lanes.
-// A block is a particle of deal.II, with these properties: what every step
-// needs, the PointBlock; what a step of most laws leaves alone, the
-// PointHistory; and what a user's law keeps.
+// one cell and one material. Lanes beyond the count of a block are padding:
+// they repeat a valid point with mass and volume zero, so that kernels may
+// compute on all lanes. A block is a particle of deal.II, with these
+// properties: the BlockHeader; what every step needs, the PointBlock; what a
+// step of most laws leaves alone, the PointHistory; and what a user's law
+// keeps.
 #ifndef caisson_mpm_kernels_blocks_h
 #define caisson_mpm_kernels_blocks_h
 
@@ -41,12 +41,11 @@ namespace CaissonMPM
 #undef CAISSON_LANES
 #undef CAISSON_LISTED_LANES
 
-    /** What is known of a block without touching it. */
+    /** What the MPs of a block have in common, as numbers of deal.II. */
     struct BlockHeader
     {
-      int   next; // the next block of the cell, -1 at the end
-      short count;
-      short material;
+      double material;
+      double count; // of the MPs, besides padding
     };
   } // namespace Kernels
 } // namespace CaissonMPM

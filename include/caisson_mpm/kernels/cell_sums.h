@@ -111,7 +111,7 @@ namespace CaissonMPM
                  const int         first_block,
                  CellMoments      &moments)
       {
-        const short       material = points.headers[first_block].material;
+        const int         material = points.material(first_block);
         bool              several  = false;
         int               block    = first_block;
         PointSums<Number> sums;
@@ -120,9 +120,9 @@ namespace CaissonMPM
         internal.clear();
         do // a cell with moments has points
           {
-            const BlockHeader header = points.headers[block];
-            const PointBlock &b      = points.blocks[block];
-            with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+            const PointBlock &b = points.blocks[block];
+            const int own = points.material(block), count = points.count(block);
+            with_lanes<Number>(count, [&](auto n_lanes) CAISSON_LAMBDA {
               for (int lane = 0; lane < n_lanes; lane += Number::width)
                 {
                   const LoadedPoints<Number> p(b, lane, cell.map);
@@ -131,14 +131,11 @@ namespace CaissonMPM
                            p.mass,
                            Number::load(b.velocity_r + lane),
                            Number::load(b.velocity_z + lane));
-                  add_stress(cell,
-                             p,
-                             materials[header.material].p_wave_modulus,
-                             internal);
+                  add_stress(cell, p, materials[own].p_wave_modulus, internal);
                 }
             });
-            several |= header.material != material;
-            block = header.next;
+            several |= own != material;
+            block = points.next[block];
           }
         while (block >= 0);
         sums.store(moments.mass); // and the momentum behind it
@@ -180,13 +177,11 @@ namespace CaissonMPM
         sums.clear();
         for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
           for (int lane = 0; lane < block_size; lane += Number::width)
-            add_stress(to_sum,
-                       LoadedPoints<Number>(step.points.blocks[block],
-                                            lane,
-                                            to_sum.map),
-                       step.materials[step.points.headers[block].material]
-                         .p_wave_modulus,
-                       sums);
+            add_stress(
+              to_sum,
+              LoadedPoints<Number>(step.points.blocks[block], lane, to_sum.map),
+              step.materials[step.points.material(block)].p_wave_modulus,
+              sums);
         });
         sums.store(out);
       }

@@ -22,7 +22,7 @@ namespace CaissonMPM
                    const Action      &action)
     {
       int block = points.first_block[cell];
-      for (; block >= 0; block = points.headers[block].next)
+      for (; block >= 0; block = points.next[block])
         action(block);
     }
 
@@ -36,14 +36,15 @@ namespace CaissonMPM
       }
     };
 
-    /** Call action(n) for the first n lanes of a block: those of one register
-     * where they hold all of its points, else all. The loop over the registers
-     * is unrolled, so that they share what is the same in all lanes. */
+    /** Call action(n) for the first n lanes of a block with @p count points:
+     * those of one register where they hold all of its points, else all. The
+     * loop over the registers is unrolled, so that they share what is the same
+     * in all lanes. */
     template <typename Number, typename Action>
     [[gnu::always_inline]] inline void
-    with_lanes(const BlockHeader &header, const Action &action)
+    with_lanes(const int count, const Action &action)
     {
-      if (Number::width < block_size && header.count <= Number::width)
+      if (Number::width < block_size && count <= Number::width)
         action(LaneCount<Number::width>());
       else
         action(LaneCount<block_size>());

@@ -187,8 +187,7 @@ namespace CaissonMPM
        * points of other laws stays as short as it is without this. */
       template <typename Law, typename Number>
       [[gnu::noinline]] unsigned int
-      update_packed_block(const BlockHeader                        &header,
-                          const BlockUpdate                        &u,
+      update_packed_block(const BlockUpdate                        &u,
                           unsigned int                             &limited,
                           const typename PackedPoints<Number>::Sums sums,
                           PackedPoints<Number>                     &packed)
@@ -196,7 +195,7 @@ namespace CaissonMPM
         unsigned int       outside = 0;
         UpdateSums<Number> no_sums; // packed points are added later
         packed.prepare(u.material, sums);
-        with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+        with_lanes<Number>(u.count, [&](auto n_lanes) CAISSON_LAMBDA {
           outside = update_block<Law, n_lanes>(u, limited, no_sums, packed);
         });
         return outside;
@@ -210,24 +209,19 @@ namespace CaissonMPM
                  const double       share_of_body,
                  CellField<>       &field)
       {
-        // the coefficients of {1, xi, eta, xi eta} of each N_I
-        constexpr double shape[4][4] = {{1., -1., -1., 1.},
-                                        {0., 1., 0., -1.},
-                                        {0., 0., 1., -1.},
-                                        {0., 0., 0., 1.}};
-        const auto       relative    = [&](const int d) {
+        const auto relative = [&](const int d) {
           return at_node.value[d] - share_of_body * corner.velocity[d];
         };
         const double free   = relative(corner.free);
-        const auto   change = [&](const int d) {
-          return free * corner.q[d] - relative(d);
+        const auto   change = [&](const int d, double *of_field) {
+          double at_corners[4]      = {}, c[4];
+          at_corners[corner.corner] = free * corner.q[d] - relative(d);
+          coefficients(at_corners, c);
+          for (int k = 0; k < 4; ++k)
+            of_field[k] += c[k];
         };
-        const double r = change(0), z = change(1);
-        for (int k = 0; k < 4; ++k)
-          {
-            field.r[k] += r * shape[corner.corner][k];
-            field.z[k] += z * shape[corner.corner][k];
-          }
+        change(0, field.r);
+        change(1, field.z);
       }
 
       /** The same in all fields of a cell at the body. */
@@ -264,11 +258,10 @@ namespace CaissonMPM
         if (!step.moments[cell].several_materials)
           return false;
         for_each_block(step.points, cell, [&](const int block) CAISSON_LAMBDA {
-          const Material &m =
-            step.materials[step.points.headers[block].material];
-          const double modulus = m.p_wave_modulus - m.water_modulus;
-          least                = modulus < least ? modulus : least;
-          largest              = modulus > largest ? modulus : largest;
+          const Material &m       = step.materials[step.points.material(block)];
+          const double    modulus = m.p_wave_modulus - m.water_modulus;
+          least                   = modulus < least ? modulus : least;
+          largest                 = modulus > largest ? modulus : largest;
         });
         return largest > much * least;
       }
@@ -349,17 +342,17 @@ namespace CaissonMPM
         sums.clear();
         for (int block = points.first_block[cell]; block >= 0;)
           {
-            const BlockHeader header = points.headers[block];
+            const int count = points.count(block);
             progress.ahead.advance();
             if (progress.deferred.is_full())
               progress.deferred.update(progress.of_group);
             unsigned int      outside = 0, limited = 0;
             const BlockUpdate u = {points.blocks[block],
                                    points.histories[block],
-                                   step.materials[header.material],
+                                   step.materials[points.material(block)],
                                    update,
                                    settings,
-                                   header.count,
+                                   count,
                                    in_group};
             with_law(u.material, [&](auto law, const auto &) CAISSON_LAMBDA {
               using Law = decltype(law);
@@ -367,10 +360,12 @@ namespace CaissonMPM
                 outside =
                   update_user_block<Number>(points, block, u, limited, sums);
               else if constexpr (Law::is_packed)
-                outside = update_packed_block<Law>(
-                  header, u, limited, progress.of_group, progress.packed);
+                outside = update_packed_block<Law>(u,
+                                                   limited,
+                                                   progress.of_group,
+                                                   progress.packed);
               else
-                with_lanes<Number>(header, [&](auto n_lanes) CAISSON_LAMBDA {
+                with_lanes<Number>(count, [&](auto n_lanes) CAISSON_LAMBDA {
                   outside = update_block<Law, n_lanes>(u,
                                                        limited,
                                                        sums,
@@ -378,10 +373,10 @@ namespace CaissonMPM
                 });
             });
             // padding moves like the point that it repeats, but is none
-            const unsigned int real = (1u << header.count) - 1u;
+            const unsigned int real = (1u << count) - 1u;
             result.n_limited += __builtin_popcount(limited & real);
             list_leaving(cell, block, outside & real, result);
-            block = header.next;
+            block = points.next[block];
           }
         for (int k = 0; k < sums.size; ++k)
           progress.of_group[k][in_group] += sums.sum[k];

@@ -22,12 +22,12 @@ namespace CaissonMPM
       {
         const auto look_at = [&](const int block) CAISSON_LAMBDA {
           const PointBlock &b        = points.blocks[block];
-          const int         m        = points.headers[block].material;
+          const int         m        = points.material(block);
           const Material   &material = materials[m];
           with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {
             using Law = decltype(law);
             if constexpr (Law::is_external)
-              for (int lane = 0; lane < points.headers[block].count; ++lane)
+              for (int lane = 0; lane < points.count(block); ++lane)
                 {
                   const double modulus =
                     user_state_of(points, block, lane)[UserState::modulus];

@@ -59,9 +59,8 @@ namespace CaissonMPM
         const PointsView &points = step.points;
         Number            volume(0.);
         for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
-          const PointBlock &b = points.blocks[block];
-          const Material   &material =
-            step.materials[points.headers[block].material];
+          const PointBlock &b        = points.blocks[block];
+          const Material   &material = step.materials[points.material(block)];
           if (!material.has_loosest_state)
             return;
           with_law(material, [&](auto law, const auto &p) CAISSON_LAMBDA {

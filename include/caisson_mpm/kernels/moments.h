@@ -107,9 +107,10 @@ namespace CaissonMPM
             return;
           constexpr int       n_fields = sizeof(PointBlock) / sizeof(double[8]);
           const double *const fields   = points.blocks[block].r;
+          __builtin_prefetch(&points.headers[block]);
           for (int i = 0; i < n_fields; ++i)
             __builtin_prefetch(fields + i * block_size);
-          block = points.headers[block].next;
+          block = points.next[block];
           if (block < 0)
             {
               ++active;

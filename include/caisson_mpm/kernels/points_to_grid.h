@@ -196,11 +196,11 @@ namespace CaissonMPM
         const GridView       &grid      = step.grid;
         const Material *const materials = step.materials;
         const CellMap<>       map(grid.geometry[cell]);
-        const int             first = points.first_block[cell];
-        const Material &reference   = materials[points.headers[first].material];
+        const int             first     = points.first_block[cell];
+        const Material       &reference = materials[points.material(first)];
         for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
           const PointBlock &b   = points.blocks[block];
-          const Material   &own = materials[points.headers[block].material];
+          const Material   &own = materials[points.material(block)];
           PointSums<Number> sums;
           sums.clear();
           for (int lane = 0; lane < block_size; lane += Number::width)
@@ -230,9 +230,8 @@ namespace CaissonMPM
         double result = materials[moments.material].p_wave_modulus;
         if (moments.several_materials)
           for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
-            const double own =
-              materials[points.headers[block].material].p_wave_modulus;
-            result = own > result ? own : result;
+            const double own = materials[points.material(block)].p_wave_modulus;
+            result           = own > result ? own : result;
           });
         return result;
       }
@@ -252,7 +251,7 @@ namespace CaissonMPM
         double            result = 0.;
         bool              all    = true;
         for_each_block(points, cell, [&](const int block) CAISSON_LAMBDA {
-          const Material &own = step.materials[points.headers[block].material];
+          const Material &own = step.materials[points.material(block)];
           all &= own.volume_in_shear == VolumeInShear::gained;
           double mass = 0.; // padding has none
           for (int lane = 0; lane < block_size; ++lane)

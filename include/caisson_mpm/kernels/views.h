@@ -5,6 +5,7 @@
 #ifndef caisson_mpm_kernels_views_h
 #define caisson_mpm_kernels_views_h
 
+#include <caisson_mpm/kernels/blocks.h>
 #include <caisson_mpm/kernels/forward.h>
 
 namespace CaissonMPM
@@ -39,7 +40,8 @@ namespace CaissonMPM
     {
       Rows<PointBlock>   blocks;
       Rows<PointHistory> histories; // of the blocks
-      const BlockHeader *headers;
+      Rows<BlockHeader>  headers;   // of the blocks
+      const int         *next;      // block of the cell, -1 at the end
       // [n_cells], -1: none. For a ghost cell this is only a flag: 0 = its
       // owner has MPs there, -1 = none
       const int          *first_block;
@@ -55,6 +57,17 @@ namespace CaissonMPM
       // (user_point.h), if there is one
       Rows<double> user_state   = {};
       int          n_user_state = 0;
+
+      int
+      count(const int block) const
+      {
+        return static_cast<int>(headers[block].count);
+      }
+      int
+      material(const int block) const
+      {
+        return static_cast<int>(headers[block].material);
+      }
     };
 
     /** The cells that a rank knows, at one position of the moving grid. */

@@ -48,6 +48,7 @@ namespace
     std::vector<PointBlock>     blocks;
     std::vector<PointHistory>   histories;
     std::vector<BlockHeader>    headers;
+    std::vector<int>            next;
     Material                    material = {};
     unsigned int                n_nodes = 0, n_points = 0;
 
@@ -89,18 +90,19 @@ namespace
         {
           if (k % block_size == 0)
             {
-              const int block                = blocks.size();
+              const int block        = blocks.size();
               (k == 0 ? (first_block.push_back(block), first_block.back()) :
-                        headers.back().next) = block;
+                        next.back()) = block;
               blocks.emplace_back();
               histories.emplace_back();
-              headers.push_back({-1, 0, 0});
+              headers.push_back({0., 0.});
+              next.push_back(-1);
             }
           PointBlock  &b    = blocks.back();
           const double r    = left + h * (k % n + .5) / n,
                        z    = bottom + h * (k / n + .5) / n;
           const double zz   = -density * gravity * (n_rows * h - z);
-          const int    lane = headers.back().count++;
+          const int    lane = static_cast<int>(headers.back().count++);
           for (int l = lane; l < block_size; ++l)
             {
               const bool real = l == lane;
@@ -129,6 +131,7 @@ namespace
       return {blocks.data(),
               histories.data(),
               headers.data(),
+              next.data(),
               first_block.data(),
               active.data(),
               static_cast<unsigned int>(active.size()),
