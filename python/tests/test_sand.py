@@ -16,7 +16,7 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.paths import SCENES
-from caisson.suggest import clay, cone, sand, sizes, walls
+from caisson.suggest import cone, sand, sizes, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
@@ -145,23 +145,11 @@ class Bodies(unittest.TestCase):
             scene_in(*words)
 
     def test_words_on_the_weight(self) -> None:
-        """30 MN on a bucket of 8 m in loose sand sink, and buckle a wall of 3 mm; 3 MN
-        do neither in dense sand with one of 30 mm. In clay of 20 kPa, 4 m of wall of
-        both sides have 4 pi (4 + 3.96) 10 kPa = 1 MN."""
-
-        def words(body: sizes.Body, weight: float, *layers: str) -> list[str]:
-            given = layers_of(layers, UNITS, "density")
-            states = clay.with_states(given, 4, 4)
-            return walls.words_on_weight(body, states, (0.4, 4), weight)
-
+        """30 MN on a bucket of 8 m buckle a wall of 3 mm; 3 MN do not with 30 mm."""
         thin, thick = (sizes.Body(8, 6, wall) for wall in (3e-3, 30e-3))
-        said = words(thin, 30e6, "0: loose")
+        said = walls.words_on_weight(thin, 0.4, 30e6)
         self.assertRegex(said[0], "the wall buckles under the weight alone")
-        self.assertRegex(said[1], "sinks to 4 m by its weight, 30 MN, without suction")
-        self.assertEqual(words(thick, 3e6, "0: dense"), [])
-        bucket = sizes.Body(4, 5, 20e-3)
-        self.assertEqual(words(bucket, 1.0e6, "0: su = 20 kPa"), [])
-        self.assertEqual(len(words(bucket, 1.1e6, "0: su = 20 kPa")), 1)
+        self.assertEqual(walls.words_on_weight(thick, 0.4, 3e6), [])
 
     def test_a_trial_that_fails(self) -> None:
         """Nothing says that such a scene is valid, and none is written."""

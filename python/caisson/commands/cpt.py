@@ -121,7 +121,7 @@ def main(options: argparse.Namespace) -> int:
             options.layer = options.sand = options.density = None
             options.overwrite = True
             suggest.write(options)  # which prints the table
-            files += [options.file, options.study]
+            files += [options.file, options.study, suggest.page_of(options.file)]
     report(files)
     if options.round_trip:
         report(cone.run())

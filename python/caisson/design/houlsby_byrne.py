@@ -227,11 +227,16 @@ class Caisson:
             end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
         return end * pi * (self.outer_diameter - t) * t
 
-    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
-        """Return the friction on both walls and the force on the tip."""
+    def forces(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> Forces:
+        """Return the same forces at once."""
         inner, inside = self._go_down(self.inner, h, enhanced, seepage.inner)
         outer, outside = self._go_down(self.outer, h, enhanced, seepage.outer)
-        return outside + inside + self._tip_between(inner, outer, h, seepage)
+        return Forces(self._tip_between(inner, outer, h, seepage), inside, outside)
+
+    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+        """Return the friction on both walls and the force on the tip."""
+        tip, inside, outside = self.forces(h, enhanced, seepage)
+        return outside + inside + tip
 
 
 class Assumptions(NamedTuple):
@@ -270,8 +275,7 @@ class HoulsbyByrne:
     def forces_under(self, flow: Seepage, h: float, case: str) -> Forces:
         """Return the forces at an embedment under flow."""
         caisson, enhanced = self.by_name[case]
-        parts = (caisson.tip, caisson.inner_friction, caisson.outer_friction)
-        return Forces(*(part(h, enhanced, flow) for part in parts))
+        return caisson.forces(h, enhanced, flow)
 
 
 def method(

@@ -9,7 +9,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import depths_of
-from caisson.verdict import design, suction_methods, theory
+from caisson.verdict import by_hand, design, suction_methods, theory
 from caisson.plot.suction import CRITICAL
 from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
@@ -19,7 +19,8 @@ from caisson.table import by_rows, text_of
 from caisson.template import say
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
-from caisson.verdict.installation import needs_suction
+from caisson.verdict.installation import Installation, Rate, installation_of
+from caisson.verdict.installation import needs_suction, plug_area
 
 SENTENCES = Path(__file__).with_name("methods.jinja")
 RATIO = "computed / "  # before the name of a method
@@ -31,6 +32,10 @@ UNDISTURBED_IS = (
 )
 # the critical suctions that a table has
 SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
+ROWS = 100  # of the depths between which a penetration by weight is found
+MADE_FOR = {"unified": ", for piles", "andersen": ", a scatter"}
+NOT_IN_MEAN = " *"
+SUCTION_HEADS = ("(R - W) / A, no flow (kPa)", "required suction (kPa)")
 AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
@@ -181,10 +186,12 @@ def suction_tables(
         if found.suctions
     }
     title, columns = "Required and critical suction (kPa)", {"depth (m)": at}
+    mine = None if run.by_hand else required
     suctions = beside(
-        title, columns, required, found.required, run.shown, "required, ", critical
+        title, columns, mine, found.required, run.shown, "required, ", critical
     )
-    methods = under_suction(run, at, site, answers)
+    if not (methods := [] if run.by_hand else under_suction(run, at, site, answers)):
+        return [suctions]
     resistance = beside(
         "Resistance under the suction of the run (kN)",
         {"depth (m)": at, "suction (kPa)": required / 1e3},
@@ -192,7 +199,7 @@ def suction_tables(
         methods,
         run.shown,
     )
-    return [suctions, resistance] if methods else [suctions]
+    return [suctions, resistance]
 
 
 # ------------------------------------------------------------------ why
@@ -318,6 +325,77 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
     return Forces(*(float(answer.forces[case][part][i]) for part in theory.PARTS[:3]))
 
 
+# ------------------------------------------------------- one beside the other
+
+
+def overview(run: Results, found: Installation, planned: float) -> dict[str, Any]:
+    """Return heads and rows of what each method says of a caisson with a weight, from
+    its lower to its upper case: where it rests, resistance and required suction at the
+    planned depth (m), or where the run has ended above, and below them the run. Empty
+    without a method, or where no suction is computed."""
+    weight, site = float(run.scene.get(suction_methods.WEIGHT) or 0), theory.site_of(
+        run
+    )
+    depth = planned if run.by_hand else min(planned, float(found.depth[-1]))
+    fine = np.linspace(0, depth, ROWS)
+    answers = [answer for answer in theory.answers_of(site, fine) if answer.forces]
+    if not weight or not answers or not (found.has_suction or run.by_hand):
+        return {}
+    area = math.pi / 4 * theory.skirt_of(site).inner_diameter ** 2
+    suctions = suction_methods.answers_of(site, fine[-1:])
+    takes = [theory.METHODS[0], *suction_methods.BY_CONE] if suctions.suctions else []
+    counted = [answer.method for answer in by_hand.answers_of(site, fine[-1:])]
+    by_name = {
+        x.name: [y[-1] / 1e3 for y in x.cases.values()] for x in suctions.required
+    }
+    shown, rows = run.shown, list[list[str]]()
+
+    def pair(values: Any, unit: str, none: str = "") -> str:
+        known = [
+            none if np.isnan(x) else text_of(shown.factor(unit) * x) for x in values
+        ]
+        return " to ".join(dict.fromkeys(known))
+
+    for answer in answers:
+        ends = answer.band("total")
+        rests = [installation.rest_without_flow(fine, x, weight) for x in ends][::-1]
+        force = np.array([x[-1] for x in ends])
+        plain = installation.suction_without_flow(force, weight, area) / 1e3
+        none = NO_ANSWER if answer.method in takes else "-"
+        needs = pair(by_name.get(answer.name, [np.nan]), "kPa", none)
+        resistance = pair(force / 1e3, "kN")
+        name = answer.name + MADE_FOR.get(answer.method.key, "")
+        mark = "" if not run.by_hand or answer.method in counted else NOT_IN_MEAN
+        more = pair(rests, "m", f"below {shown.place(depth)}"), resistance
+        rows.append([name + mark, *more, pair(plain, "kPa"), needs])
+    rows.append(own_row(run, found, depth))
+    heads = ["method", "rests at (m)", "resistance (kN)", *SUCTION_HEADS]
+    note = say(SENTENCES, "overview", bool(run.by_hand))
+    place = {"place": shown.place(depth), "note": note}
+    return {"heads": list(map(shown.named, heads)), "rows": rows, **place}
+
+
+def own_row(run: Results, found: Installation, depth: float) -> list[str]:
+    """Return the row of a run, or of the best estimate before it, at a depth (m)."""
+    shown, at = run.shown, installation_of(run, Rate(), np.array([depth]))
+    assert at is not None
+    rest = "-" if found.rest is None else text_of(shown.factor("m") * found.rest)
+    needs = text_of(shown.factor("kPa") * float(at.required[0])) or "-"
+    if not run.by_hand:
+        return ["computed", rest, "-", "-", needs]
+    force = float(at.forces[design.FORCES[-1]][0])
+    weight = float(run.scene[suction_methods.WEIGHT]) / 1e3
+    plain = max(force - weight, 0.0) / plug_area(run.scene)
+    resistance = text_of(shown.factor("kN") * force)
+    return [
+        "best: the mean",
+        rest,
+        resistance,
+        text_of(shown.factor("kPa") * plain),
+        needs,
+    ]
+
+
 # ------------------------------------------------------------------ all
 
 
@@ -353,7 +431,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     answers = theory.answers_of(site, at)
     with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None
-    if total in history and not with_suction:
+    if total in history and not with_suction and not run.by_hand:
         computed = design.compared_at(history, at)[total]
     title = "Total force (kN)"
     if computed is None:
@@ -362,7 +440,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
     leaves = ""
     if with_suction:
-        columns, rest = relief.table_of(run, at)
+        columns, rest = ({}, None) if run.by_hand else relief.table_of(run, at)
         leaves = say(SENTENCES, "suction_leaves", run.shown, rest) if columns else ""
         title = "What suction leaves of the forces"
         left = [table(title, columns, run.shown)] if columns else []
@@ -370,7 +448,10 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     # the deepest of them that a cone test reaches
     end = site.cone.depth[-1] if site.cone else np.inf
     h = float(max((z for z in at if z <= end), default=at[-1]))
-    why = [why_of(run, at), *others_of(run, h, theory.answers_of(site, np.array([h])))]
+    why = list[str]()
+    if not run.by_hand:
+        at_h = theory.answers_of(site, np.array([h]))
+        why = [why_of(run, at), *others_of(run, h, at_h)]
     notes = [theory.about_cone(site, float(at.max())), leaves]
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)

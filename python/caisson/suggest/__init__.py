@@ -25,8 +25,11 @@ of high resistance, and so do --low and --high, with what differs from a layer, 
 
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --weight 100kN \\
       --layer "0: Dr = 60%" --low "0: Dr = 50%" --high "0: Dr = 70%" own.prm
+
+own.html is the page of the scene before any run: what hand methods say of it.
 """
 import argparse
+import concurrent.futures
 import functools
 import os
 import re
@@ -38,11 +41,13 @@ from pathlib import Path
 from typing import Any
 
 from caisson import density_law, disk
-from caisson.band import member_of
+from caisson.band import BEST, member_of
+from caisson.design import cone as cone_test
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
+from caisson.results import ResultsError
 from caisson.runner import RunError, query
 from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
@@ -60,6 +65,7 @@ VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
 FAILS = "the first steps of the run fail"  # of --validate
+DURATION = re.compile(r"^ *duration +(about [^:]+):", re.M)  # of it, too
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -162,6 +168,7 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
     files: list[Path] = [f for f in (options.file, options.study) if f]
+    files.append(page_of(options.file))
     files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
@@ -483,6 +490,66 @@ def cost_of(file: Path, text: str) -> str:
     return said
 
 
+def page_of(scene: Path) -> Path:
+    """Return the page of a scene before any run."""
+    return scene.with_suffix(".html")
+
+
+def run_of(scene: Path, estimates: Sequence[str]) -> str:
+    """Return the command that runs a scene, with these estimates beside it."""
+    run = "caisson run" if INSTALLED else "scripts/run"
+    return f"{run}{' --band' if estimates else ''} {scene}"
+
+
+def by_hand(
+    options: argparse.Namespace,
+    texts: Mapping[str, str],
+    cost: str,
+    estimates: Sequence[str],
+) -> str:
+    """Return the page of the scene before any run, and say its verdict; nothing where
+    no hand method knows the ground. texts: the scenes by estimate; cost: what the
+    program says of it; estimates: of which scenes are to be written, which it accepts,
+    too. Raises SuggestError where it refuses one."""
+    from caisson.report import band as ends
+    from caisson.report import page, verdict
+    from caisson.verdict import by_hand as methods
+    from caisson.verdict.installation import Rate
+
+    duration = DURATION.search(cost)
+    to_come = {
+        "scene_file": str(options.file),
+        "cost": duration[1] if duration else "",
+        "next": run_of(options.file, estimates),
+    }
+
+    def made(estimate: str) -> methods.ByHand:
+        directory = Path(folder, estimate)
+        directory.mkdir()
+        if estimate in estimates:
+            cost_of(member_of(options.file, estimate), texts[estimate])
+        scene = directory / options.file.name
+        scene.write_text(texts[estimate], encoding="utf-8")
+        methods.step(scene, directory)
+        if options.cpt:
+            how = cone_options.how_of(options)
+            cone_test.adopt(options.cpt, directory, how)
+        return methods.ByHand(directory, estimate, to_come)
+
+    with tempfile.TemporaryDirectory() as folder:
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            members = dict(zip(texts, pool.map(made, texts)))
+        best = methods.band_of(members)
+        try:
+            found = page.html(best, Rate())
+        except ResultsError as error:
+            print(f"no page: {error}")
+            return ""
+        for line in filter(None, [*verdict.lines_of(best), ends.sentence_of(best)]):
+            print(line)
+    return found
+
+
 def ends_of(
     options: argparse.Namespace,
     layers: Sequence[Layer],
@@ -522,18 +589,18 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     if found:
         found = replace(found, layers=found.layers[:n_layers])
     if options.weight:
-        ends_of_run = begin_of(options), end_of(options)
-        states = clay.with_states(layers, ends_of_run[1], ends_of_run[1])
         for words in walls.words_on_weight(
-            body_of(options), states, ends_of_run, options.weight
+            body_of(options), begin_of(options), options.weight
         ):
             print(f"warning: {words}")
-    texts = {options.file: scene_of(options, layers, options.file)}
-    ends = ends_of(options, layers, known, found) if estimates else {}
+    scenes = {BEST: scene_of(options, layers, options.file)}
+    ends = ends_of(options, layers, known, found) if band.estimates_of(options) else {}
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
-        texts[file] = scene_of(options, soil[:n_layers], file, words)
-    costs = [cost_of(file, text) for file, text in texts.items()]
+        scenes[estimate] = scene_of(options, soil[:n_layers], file, words)
+    written = [BEST, *estimates]
+    texts = {member_of(options.file, x): scenes[x] for x in written}
+    cost = cost_of(options.file, scenes[BEST])  # alone, as it is timed
     if options.study:
         if estimates and options.spread:
             given = texts_of(options)
@@ -545,10 +612,12 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
             )
     if options.study and found and (table := table_of_cone(options)) != options.cpt:
         texts[table] = cone_file.text_of(found.test)
+    print(cost)
+    if page := by_hand(options, scenes, cost, estimates):
+        texts[page_of(options.file)] = page
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)
-    print(costs[0])
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
     for remark in remarks_on(options):
@@ -567,17 +636,16 @@ def write_all(options: argparse.Namespace) -> list[str]:
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
     estimates = write_all(options)
-    run, study = (
-        ("caisson run", "caisson study")
-        if INSTALLED
-        else ("scripts/run", "scripts/caisson study")
-    )
+    study = "caisson study" if INSTALLED else "scripts/caisson study"
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
-    how = f"{run} --band" if estimates else run
-    print(f"written: {', '.join(map(str, files))}; next: {how} {options.file}")
+    if (page := page_of(options.file)).is_file():
+        files.append(page)
+    run = run_of(options.file, estimates)
+    print(f"written: {', '.join(map(str, files))}; next: {run}")
+    way = run_of(Path(f"--error {options.error}% {options.file}"), [])
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
-        f" error, with its error bar: {run} --error {options.error}% {options.file}"
+        f" error, with its error bar: {way}"
     )
     if options.study:
         print(f"written: {options.study}; next: {study} {options.study}")

@@ -196,6 +196,22 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
     )
 
 
+def limits_at(
+    site: theory.Site, depth: np.ndarray
+) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
+    """Return the suction of piping by Houlsby and Byrne, None where they have none, and
+    those at which a plug of clay gives way, [n] (Pa) at embedments [n] (m): what
+    answers_of() has of them, in less time."""
+    try:
+        byrne = theory.houlsby_byrne_of(site, float(depth.max()))
+        weight_of(site.scene)
+    except theory.NotApplicable:
+        return None, theory.plug_limits(site, depth)
+    (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
+    found = [installation.piping_suction(caisson, float(h), ratio) for h in depth]
+    return np.array(found), {}
+
+
 def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
     """Return what the methods say at embedments [n]."""
     deepest = float(depth.max())
