@@ -319,9 +319,9 @@ class Commands(Temporary):
                 park.prepare(table, 10, self.path / "park")
             return said.getvalue()
 
-        def write_all(options: argparse.Namespace) -> list[str]:
+        def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
             disk.write(options.file, f"set Title = {options.weight}\n")
-            return []
+            return [], ""
 
         table.touch()
         weights = iter("123")

@@ -191,24 +191,6 @@ class Caisson:
         whole = pi * self.outer.diameter * integral
         return friction / whole if whole > 0 else nan
 
-    def inner_friction(
-        self, h: float, enhanced: bool, seepage: Seepage = STILL
-    ) -> float:
-        """Return the friction on the inner wall."""
-        return self._go_down(self.inner, h, enhanced, seepage.inner)[1]
-
-    def outer_friction(
-        self, h: float, enhanced: bool, seepage: Seepage = STILL
-    ) -> float:
-        """Return the friction on the outer wall."""
-        return self._go_down(self.outer, h, enhanced, seepage.outer)[1]
-
-    def tip(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
-        """Return the force on the tip, with a flat end of the wall."""
-        inner, _ = self._go_down(self.inner, h, enhanced, seepage.inner)
-        outer, _ = self._go_down(self.outer, h, enhanced, seepage.outer)
-        return self._tip_between(inner, outer, h, seepage)
-
     def _tip_between(
         self, inner: float, outer: float, h: float, seepage: Seepage
     ) -> float:
@@ -228,7 +210,8 @@ class Caisson:
         return end * pi * (self.outer_diameter - t) * t
 
     def forces(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> Forces:
-        """Return the same forces at once."""
+        """Return the force on the tip, with a flat end of the wall, and the friction
+        on both walls."""
         inner, inside = self._go_down(self.inner, h, enhanced, seepage.inner)
         outer, outside = self._go_down(self.outer, h, enhanced, seepage.outer)
         return Forces(self._tip_between(inner, outer, h, seepage), inside, outside)

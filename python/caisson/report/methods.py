@@ -2,6 +2,7 @@
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
 import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,10 +33,12 @@ UNDISTURBED_IS = (
 )
 # the critical suctions that a table has
 SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
-ROWS = 100  # of the depths between which a penetration by weight is found
 MADE_FOR = {"unified": ", for piles", "andersen": ", a scatter"}
 NOT_IN_MEAN = " *"
-SUCTION_HEADS = ("(R - W) / A, no flow (kPa)", "required suction (kPa)")
+OVERVIEW = (
+    *("method", "rests at (m)", "resistance (kN)"),
+    *("(R - W) / A, no flow (kPa)", "required suction (kPa)"),
+)
 AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
@@ -237,7 +240,7 @@ def compared(run: Results, h: float) -> reasons.Compared | None:
     if not ratio:
         return None
     low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
-    frictions = computed.outer_friction, caisson.outer_friction(h, False, flow)
+    frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
     walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
     return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
@@ -333,67 +336,50 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     its lower to its upper case: where it rests, resistance and required suction at the
     planned depth (m), or where the run has ended above, and below them the run. Empty
     without a method, or where no suction is computed."""
-    weight, site = float(run.scene.get(suction_methods.WEIGHT) or 0), theory.site_of(
-        run
-    )
-    depth = planned if run.by_hand else min(planned, float(found.depth[-1]))
-    fine = np.linspace(0, depth, ROWS)
-    answers = [answer for answer in theory.answers_of(site, fine) if answer.forces]
-    if not weight or not answers or not (found.has_suction or run.by_hand):
+    weight = float(run.scene.get(suction_methods.WEIGHT) or 0)
+    if not weight or not (found.has_suction or run.by_hand):
         return {}
-    area = math.pi / 4 * theory.skirt_of(site).inner_diameter ** 2
-    suctions = suction_methods.answers_of(site, fine[-1:])
-    takes = [theory.METHODS[0], *suction_methods.BY_CONE] if suctions.suctions else []
-    counted = [answer.method for answer in by_hand.answers_of(site, fine[-1:])]
-    by_name = {
-        x.name: [y[-1] / 1e3 for y in x.cases.values()] for x in suctions.required
-    }
-    shown, rows = run.shown, list[list[str]]()
+    shown, site, area = run.shown, theory.site_of(run), 1e3 * plug_area(run.scene)
+    depth = planned if run.by_hand else min(planned, float(found.depth[-1]))
+    at = np.array([depth])
+    counted = [answer.method for answer in by_hand.answers_of(site, at)]
+    needs = {x.name: x.cases for x in suction_methods.answers_of(site, at).every}
 
-    def pair(values: Any, unit: str, none: str = "") -> str:
-        known = [
-            none if np.isnan(x) else text_of(shown.factor(unit) * x) for x in values
+    def pair(values: Iterable[Any], unit: str, none: str) -> str:
+        known = [float(x) * shown.factor(unit) for x in values]
+        texts = [text_of(x) or none for x in known]
+        return " to ".join(dict.fromkeys(texts)) or "-"
+
+    def cells(
+        name: str, rests: Iterable[Any], forces: Sequence[Any], needs: Iterable[Any]
+    ) -> list[str]:
+        plain = [max(float(x) - weight, 0.0) / area for x in forces]
+        return [
+            name,
+            pair(rests, "m", f"below {shown.place(depth)}"),
+            pair([x / 1e3 for x in forces], "kN", ""),
+            pair(plain, "kPa", ""),
+            pair([x / 1e3 for x in needs], "kPa", NO_ANSWER),
         ]
-        return " to ".join(dict.fromkeys(known))
 
-    for answer in answers:
-        ends = answer.band("total")
-        rests = [installation.rest_without_flow(fine, x, weight) for x in ends][::-1]
-        force = np.array([x[-1] for x in ends])
-        plain = installation.suction_without_flow(force, weight, area) / 1e3
-        none = NO_ANSWER if answer.method in takes else "-"
-        needs = pair(by_name.get(answer.name, [np.nan]), "kPa", none)
-        resistance = pair(force / 1e3, "kN")
+    rows = list[list[str]]()
+    for answer in theory.answers_of(site, at):
+        if not answer.forces:
+            continue
         name = answer.name + MADE_FOR.get(answer.method.key, "")
         mark = "" if not run.by_hand or answer.method in counted else NOT_IN_MEAN
-        more = pair(rests, "m", f"below {shown.place(depth)}"), resistance
-        rows.append([name + mark, *more, pair(plain, "kPa"), needs])
-    rows.append(own_row(run, found, depth))
-    heads = ["method", "rests at (m)", "resistance (kN)", *SUCTION_HEADS]
+        rests = suction_methods.rests_of(answer.method, site, depth).values()
+        cases = needs.get(answer.name, {}).values()
+        rows.append(cells(name + mark, [*rests][::-1], answer.band("total"), cases))
+    if not rows or (here := installation_of(run, Rate(), at)) is None:
+        return {}
+    rest = [] if found.rest is None else [found.rest]
+    own = [here.forces[design.FORCES[-1]] * 1e3] if run.by_hand else []
+    name = "best: the mean" if run.by_hand else "computed"
+    rows.append(cells(name, rest, own, here.required * 1e3))
+    heads = map(shown.named, OVERVIEW)
     note = say(SENTENCES, "overview", bool(run.by_hand))
-    place = {"place": shown.place(depth), "note": note}
-    return {"heads": list(map(shown.named, heads)), "rows": rows, **place}
-
-
-def own_row(run: Results, found: Installation, depth: float) -> list[str]:
-    """Return the row of a run, or of the best estimate before it, at a depth (m)."""
-    shown, at = run.shown, installation_of(run, Rate(), np.array([depth]))
-    assert at is not None
-    rest = "-" if found.rest is None else text_of(shown.factor("m") * found.rest)
-    needs = text_of(shown.factor("kPa") * float(at.required[0])) or "-"
-    if not run.by_hand:
-        return ["computed", rest, "-", "-", needs]
-    force = float(at.forces[design.FORCES[-1]][0])
-    weight = float(run.scene[suction_methods.WEIGHT]) / 1e3
-    plain = max(force - weight, 0.0) / plug_area(run.scene)
-    resistance = text_of(shown.factor("kN") * force)
-    return [
-        "best: the mean",
-        rest,
-        resistance,
-        text_of(shown.factor("kPa") * plain),
-        needs,
-    ]
+    return {"heads": [*heads], "rows": rows, "note": note, "place": shown.place(depth)}
 
 
 # ------------------------------------------------------------------ all

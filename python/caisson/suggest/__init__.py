@@ -41,7 +41,7 @@ from pathlib import Path
 from typing import Any
 
 from caisson import density_law, disk
-from caisson.band import BEST, member_of
+from caisson.band import BEST, HIGH, LOW, member_of
 from caisson.design import cone as cone_test
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
@@ -81,8 +81,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
     text = (
-        "write a study, too: of angle or density, of a cone test's estimates, or with"
-        " --spread of twenty runs for P5, P50 and P95"
+        "write a study, too: of angle or density, or with --spread of twenty runs for"
+        " P5, P50 and P95"
     )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
@@ -169,12 +169,18 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
     files: list[Path] = [f for f in (options.file, options.study) if f]
     files.append(page_of(options.file))
+    files += [cone_test.beside(options.file)] * bool(options.cpt)
     files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
         if file.exists() and not options.overwrite:
             raise SuggestError(f"{file} exists; --overwrite replaces it")
+    if options.study and options.cpt:
+        raise SuggestError(
+            "--study: low and high of a cone test are scenes, too, which"
+            f" `{run_of(options.file, [LOW, HIGH])}` runs; leave it out"
+        )
     if options.study and options.study.suffix != ".toml":
         raise SuggestError(f"--study {options.study}: its name must end with .toml")
 
@@ -280,24 +286,6 @@ def texts_of(options: argparse.Namespace) -> list[str]:
 def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers that the skirt reaches."""
     return [layer for layer in layers if layer.top < end_of(options)]
-
-
-def table_of_cone(options: argparse.Namespace) -> Path:
-    """Return the cone test as a table, beside the study if the file is none."""
-    if cone_file.is_plain(options.cpt, cone_options.how_of(options)):
-        return Path(options.cpt)
-    study: Path = options.study
-    return study.with_name(f"{study.stem}_cone.csv")
-
-
-def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
-    """Return the text of a study with low, best and high estimate of a cone test."""
-    return template(HERE / "soil_study.toml.jinja").render(
-        scene=os.path.relpath(options.file, options.study.parent),
-        cone=os.path.relpath(table_of_cone(options), options.study.parent),
-        name=options.cpt.name,
-        choices=cone.choices_of(found),
-    )
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
@@ -418,7 +406,7 @@ def scene_of(
         smooth_tip=all(map(walls.is_clay, deep)) or options.wall_friction == 0,
         tip_friction=own_cone.FRICTION,
         default_row=sizes.DEFAULT_ROW,
-        directory=f"results/{file.stem}",
+        directory=f"{getattr(options, 'results', 'results')}/{file.stem}",
         frames=sizes.frames_of(start, end),
         **flow_of(options, layers, soil),
     )
@@ -506,11 +494,12 @@ def by_hand(
     texts: Mapping[str, str],
     cost: str,
     estimates: Sequence[str],
+    test: str = "",
 ) -> str:
     """Return the page of the scene before any run, and say its verdict; nothing where
     no hand method knows the ground. texts: the scenes by estimate; cost: what the
     program says of it; estimates: of which scenes are to be written, which it accepts,
-    too. Raises SuggestError where it refuses one."""
+    too; test: the table of a cone test. Raises SuggestError where it refuses one."""
     from caisson.report import band as ends
     from caisson.report import page, verdict
     from caisson.verdict import by_hand as methods
@@ -531,9 +520,8 @@ def by_hand(
         scene = directory / options.file.name
         scene.write_text(texts[estimate], encoding="utf-8")
         methods.step(scene, directory)
-        if options.cpt:
-            how = cone_options.how_of(options)
-            cone_test.adopt(options.cpt, directory, how)
+        if test:
+            disk.keep(directory / cone_test.NAME, test)
         return methods.ByHand(directory, estimate, to_come)
 
     with tempfile.TemporaryDirectory() as folder:
@@ -552,7 +540,6 @@ def by_hand(
 
 def ends_of(
     options: argparse.Namespace,
-    layers: Sequence[Layer],
     known: Mapping[str, str],
     found: Interpretation | None,
 ) -> dict[str, list[Layer]]:
@@ -560,16 +547,15 @@ def ends_of(
     known: the units of entries; found: a cone test. Raises SuggestError."""
     if found is None:
         return band.of_texts(texts_of(options), known, law_of(options), options)
-    return band.of_choices(layers, cone.choices_of(found))
+    return {x: cone.layers_of(found, end_of(options), x) for x in (LOW, HIGH)}
 
 
-def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
-    """Write the scene, those of these estimates, and the study if there is to be one;
-    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
-    """
-    check(options, estimates)
+def soil_of(
+    options: argparse.Namespace, known: Mapping[str, str]
+) -> tuple[list[Layer], Interpretation | None]:
+    """Return the layers that the mesh has, and the cone test that they are from; say
+    what is doubtful. known: the units of entries. Raises SuggestError or InputError."""
     found = None
-    known = {} if options.cpt else entries_of_layers()
     if options.cpt:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
@@ -584,22 +570,28 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(walls.is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
-    n_layers = within_mesh(options, layers)
-    layers = layers[:n_layers]
-    if found:
-        found = replace(found, layers=found.layers[:n_layers])
-    if options.weight:
-        for words in walls.words_on_weight(
-            body_of(options), begin_of(options), options.weight
-        ):
-            print(f"warning: {words}")
+    n = within_mesh(options, layers)
+    return layers[:n], found and replace(found, layers=found.layers[:n])
+
+
+def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Return its page, which has that cost, and so is never
+    the same twice; "" where no hand method knows the ground. Raises SuggestError,
+    RunError, InputError or OSError."""
+    check(options, estimates)
+    known = {} if options.cpt else entries_of_layers()
+    layers, found = soil_of(options, known)
+    if words := walls.words_on_weight(
+        body_of(options), begin_of(options), options.weight
+    ):
+        print(f"warning: {words}")
     scenes = {BEST: scene_of(options, layers, options.file)}
-    ends = ends_of(options, layers, known, found) if band.estimates_of(options) else {}
+    ends = ends_of(options, known, found) if estimates else {}
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
-        scenes[estimate] = scene_of(options, soil[:n_layers], file, words)
-    written = [BEST, *estimates]
-    texts = {member_of(options.file, x): scenes[x] for x in written}
+        scenes[estimate] = scene_of(options, soil[: len(layers)], file, words)
+    texts = {member_of(options.file, x): text for x, text in scenes.items()}
     cost = cost_of(options.file, scenes[BEST])  # alone, as it is timed
     if options.study:
         if estimates and options.spread:
@@ -607,14 +599,12 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
             deep = reached(options, layers)
             texts[options.study] = band.study_of(options, given, layers, deep, known)
         else:
-            texts[options.study] = (
-                soil_study_of(options, found) if found else study_of(options, layers)
-            )
-    if options.study and found and (table := table_of_cone(options)) != options.cpt:
-        texts[table] = cone_file.text_of(found.test)
+            texts[options.study] = study_of(options, layers)
+    if found:
+        texts[cone_test.beside(options.file)] = cone_file.text_of(found.test)
     print(cost)
-    if page := by_hand(options, scenes, cost, estimates):
-        texts[page_of(options.file)] = page
+    test = texts.get(cone_test.beside(options.file), "")
+    page = by_hand(options, scenes, cost, estimates, test)
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)
@@ -622,24 +612,24 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
     for remark in remarks_on(options):
         print(remark)
+    return page
 
 
-def write_all(options: argparse.Namespace) -> list[str]:
-    """Write the scene with those of its band; return which estimates these are. Raises
-    SuggestError, RunError, InputError or OSError."""
+def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
+    """Write the scene with those of its band; return which estimates these are, and the
+    page. Raises SuggestError, RunError, InputError or OSError."""
     band.check(options)
     estimates = band.estimates_of(options)
-    write(options, estimates)
-    return estimates
+    return estimates, write(options, estimates)
 
 
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    estimates = write_all(options)
+    estimates, page = write_all(options)
     study = "caisson study" if INSTALLED else "scripts/caisson study"
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
-    if (page := page_of(options.file)).is_file():
-        files.append(page)
+    if page:
+        files.append(disk.write(page_of(options.file), page))
     run = run_of(options.file, estimates)
     print(f"written: {', '.join(map(str, files))}; next: {run}")
     way = run_of(Path(f"--error {options.error}% {options.file}"), [])

@@ -122,12 +122,12 @@ def with_walls(
     return found
 
 
-def words_on_weight(body: Body, begin: float, weight: float) -> list[str]:
+def words_on_weight(body: Body, begin: float, weight: float | None) -> str:
     """Return what is wrong with a weight in water (N) where the run begins (m)."""
     wall = shell.Wall(body.diameter, body.wall, body.skirt, *STEEL)
-    if (check := shell.check_at(wall, begin, 0.0, weight)) < 1:
-        return []
-    return [
+    if (check := shell.check_at(wall, begin, 0.0, weight or 0.0)) < 1:
+        return ""
+    return (
         "the wall buckles under the weight alone, by DNV-RP-C202 at"
         f" {check:.2g} times its design strength without stiffeners"
-    ]
+    )

@@ -15,7 +15,7 @@ friction F_i what Senders & Randolph say, and nothing in ground with clay:
     s = (R - W) / (A + (Q + F_i) / s_cr),  R = Q + F_i + F_o,  or  s = (R - W) / A.
 
 Half of the wall in the soil lifts the plug while the weight pushes it, and all of it
-under suction (DNV-RP-E303); that the sand loosens is left out. By Darcy, with the
+under suction (assumed); that the sand loosens is left out. By Darcy, with the
 gradient of Houlsby & Byrne, k (1 - a) s A / (gamma_w h) seeps through the plug.
 """
 import functools
@@ -25,7 +25,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from caisson.band import BEST, HIGH, LOW
 from caisson.design import suction_installation as suction
@@ -176,17 +175,13 @@ class ByHand(Results):
     def rest(self) -> float | None:
         """The penetration by weight (m): where the resistance first is the weight; None
         where it is not down to the end."""
-        depth = np.linspace(0.0, self.end, ROWS // 3)
-        beyond = np.flatnonzero(self.forces_at(depth)["total"] >= self.weight)
-        if not len(beyond):
-            return None
-        if not (i := int(beyond[0])):
-            return 0.0
+        tops = [theory.top_of(entry) for _, entry in self.site.layers(self.end)]
 
-        def missing(h: float) -> float:
-            return float(self.forces_at(np.array([h]))["total"][0]) - self.weight
+        def resistance(h: float) -> float:
+            return float(self.forces_at(np.array([h]))["total"][0])
 
-        return float(brentq(missing, depth[i - 1], depth[i], xtol=1e-6))
+        found = suction.self_weight_penetration(resistance, self.weight, self.end, tops)
+        return found if np.isfinite(found) else None
 
     def suction_at(
         self, depth: np.ndarray, forces: Mapping[str, np.ndarray]
