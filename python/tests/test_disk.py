@@ -301,7 +301,7 @@ class Commands(Temporary):
             "3000kN",
         )
         layer = ("--layer", "0: phi = 33, E = 20 MPa")
-        known = {"query": "valid", "entries_of_layers": KNOWN, "by_hand": "a page"}
+        known = {"cost_of": "valid", "entries_of_layers": KNOWN, "by_hand": "a page"}
         for name, value in known.items():
             patch = unittest.mock.patch(f"caisson.suggest.{name}", return_value=value)
             self.stack.enter_context(patch)

@@ -16,7 +16,7 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.paths import SCENES
-from caisson.suggest import cone, sand, sizes, walls
+from caisson.suggest import cone, sand, sizes, trial, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
@@ -153,11 +153,11 @@ class Bodies(unittest.TestCase):
     def test_a_trial_that_fails(self) -> None:
         """Nothing says that such a scene is valid, and none is written."""
         said = "a.prm has no wrong entry\nwarning: the first steps of the run fail: why"
-        with unittest.mock.patch.object(suggest, "query", return_value=said):
+        with unittest.mock.patch.object(trial, "query", return_value=said):
             with self.assertRaisesRegex(
                 SuggestError, "first steps of the run fail: why"
             ):
-                suggest.cost_of(Path("own.prm"), "")
+                trial.cost_of(Path("own.prm"), "")
 
 
 class Entries(unittest.TestCase):

@@ -167,9 +167,8 @@ def html(run: Results, rate: Rate) -> str:
     name, known = run.directory.resolve().name, dict[str, Any]()
     if run.is_running:
         known |= {"progress": progress_of(run), "refresh": REFRESH}
-    how, run = {"status": status_of(run), "incomplete": incomplete_of(run)}, not_begun(
-        run
-    )
+    known |= {"status": status_of(run), "incomplete": incomplete_of(run)}
+    run = not_begun(run)
     end, found = verdict.verdict_of(run).end, None
     if evaluation.is_pull(run):
         known |= {"verdict": verdict.verdict_of(run), "cards": pull.cards_of(run)}
@@ -194,7 +193,6 @@ def html(run: Results, rate: Rate) -> str:
         name=name,
         computed=what_was_computed(run, found),
         rate=rate.words,
-        **how,
         **({} if run.by_hand else of_records(run, end)),
         **known,
     )

@@ -29,11 +29,9 @@ of high resistance, and so do --low and --high, with what differs from a layer, 
 own.html is the page of the scene before any run: what hand methods say of it.
 """
 import argparse
-import concurrent.futures
 import functools
 import os
 import re
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
@@ -47,11 +45,11 @@ from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
-from caisson.results import ResultsError
-from caisson.runner import RunError, query
+from caisson.runner import query
 from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import CAM_CLAY, layers_of
+from caisson.suggest.trial import by_hand, cost_of, page_of, run_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -64,8 +62,6 @@ FACTORS_OF_STRENGTH = (0.7, 0.85, 1, 1.15, 1.3)  # and of the stiffness of clay
 VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
-FAILS = "the first steps of the run fail"  # of --validate
-DURATION = re.compile(r"^ *duration +(about [^:]+):", re.M)  # of it, too
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -448,96 +444,6 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
     return found
 
 
-def said_of(text: str, file: Path, copy: Path, said: str) -> str:
-    """Return what the program says of a refused scene, of which no file is left: its
-    lines in the place of their numbers."""
-    lines = text.splitlines()
-
-    def line(match: re.Match[str]) -> str:
-        return f"“{lines[int(match[1]) - 1].strip()}”"
-
-    said = re.sub(rf"(?:in )?{re.escape(str(copy))}:(\d+)", line, said)
-    return said.replace("is set in “", "is “").replace(str(copy), str(file))
-
-
-def cost_of(file: Path, text: str) -> str:
-    """Return what the program says of a scene, which is going to be this file, and of
-    its cost. Raises SuggestError where it refuses it."""
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder, file.name)
-        copy.write_text(text, encoding="utf-8")
-        try:
-            said = query([str(copy), "--validate"]).replace(str(copy), str(file))
-        except RunError as error:
-            said = said_of(text, file, copy, str(error))
-            raise SuggestError(
-                f"the program refuses the scene, which is not written:\n{said}"
-            ) from error
-    if FAILS in said:
-        raise SuggestError(f"the scene, which is not written, does not run:\n{said}")
-    return said
-
-
-def page_of(scene: Path) -> Path:
-    """Return the page of a scene before any run."""
-    return scene.with_suffix(".html")
-
-
-def run_of(scene: Path, estimates: Sequence[str]) -> str:
-    """Return the command that runs a scene, with these estimates beside it."""
-    run = "caisson run" if INSTALLED else "scripts/run"
-    return f"{run}{' --band' if estimates else ''} {scene}"
-
-
-def by_hand(
-    options: argparse.Namespace,
-    texts: Mapping[str, str],
-    cost: str,
-    estimates: Sequence[str],
-    test: str = "",
-) -> str:
-    """Return the page of the scene before any run, and say its verdict; nothing where
-    no hand method knows the ground. texts: the scenes by estimate; cost: what the
-    program says of it; estimates: of which scenes are to be written, which it accepts,
-    too; test: the table of a cone test. Raises SuggestError where it refuses one."""
-    from caisson.report import band as ends
-    from caisson.report import page, verdict
-    from caisson.verdict import by_hand as methods
-    from caisson.verdict.installation import Rate
-
-    duration = DURATION.search(cost)
-    to_come = {
-        "scene_file": str(options.file),
-        "cost": duration[1] if duration else "",
-        "next": run_of(options.file, estimates),
-    }
-
-    def made(estimate: str) -> methods.ByHand:
-        directory = Path(folder, estimate)
-        directory.mkdir()
-        if estimate in estimates:
-            cost_of(member_of(options.file, estimate), texts[estimate])
-        scene = directory / options.file.name
-        scene.write_text(texts[estimate], encoding="utf-8")
-        methods.step(scene, directory)
-        if test:
-            disk.keep(directory / cone_test.NAME, test)
-        return methods.ByHand(directory, estimate, to_come)
-
-    with tempfile.TemporaryDirectory() as folder:
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            members = dict(zip(texts, pool.map(made, texts)))
-        best = methods.band_of(members)
-        try:
-            found = page.html(best, Rate())
-        except ResultsError as error:
-            print(f"no page: {error}")
-            return ""
-        for line in filter(None, [*verdict.lines_of(best), ends.sentence_of(best)]):
-            print(line)
-    return found
-
-
 def ends_of(
     options: argparse.Namespace,
     known: Mapping[str, str],
@@ -604,7 +510,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
         texts[cone_test.beside(options.file)] = cone_file.text_of(found.test)
     print(cost)
     test = texts.get(cone_test.beside(options.file), "")
-    page = by_hand(options, scenes, cost, estimates, test)
+    page = by_hand(options.file, scenes, cost, estimates, test)
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)

@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.band import BEST, HIGH, LOW
+from caisson.band import BEST, ESTIMATES, HIGH, LOW
 from caisson.design import suction_installation as suction
 from caisson.design.own_cone import DIAMETER
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
@@ -46,16 +46,18 @@ ROWS = 150  # over the way
 WEIGHT_OF_WATER = 1000 * GRAVITY  # N/m3
 UNDER_WEIGHT = 0.5  # of the wall goes into the plug
 STEP = {
-    "Time/End time": "1e-9",
+    "Time/End time": "",
     "Output/Frame interval": "never",
     "Output/Frame penetrations": "",
 }
 
 
-def step(scene: Path, directory: Path) -> None:
-    """Let the program make one step of a scene, which leaves run.json in a directory.
-    Raises RunError with what it says where it refuses the scene."""
-    query([str(scene), "--output-directory", str(directory), *set_options(STEP)])
+def step(scene: Path, directory: Path, seconds: float = 0.0) -> None:
+    """Let the program make the first steps of a scene, of so many seconds, or one of
+    them, which leave run.json in a directory. Raises RunError with what it says where
+    it refuses the scene, or fails."""
+    entries = STEP | {"Time/End time": f"{max(seconds, 1e-9):g}"}
+    query([str(scene), "--output-directory", str(directory), *set_options(entries)])
 
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> list[theory.Answer]:
@@ -268,9 +270,8 @@ def band_of(members: Mapping[str, ByHand]) -> ByHand:
     """Return the best estimate of a scene with its band. members: the scene in soil of
     low, best and high resistance, of which low and high may be the best one's."""
     best = members[BEST]
-    for estimate in (LOW, BEST, HIGH):
-        given = members.get(estimate, best)
-        is_best = estimate == BEST
-        member = best if is_best else ByHand(given.directory, estimate, given.facts)
-        best.estimates[estimate] = member
+    best.estimates = {
+        x: ByHand((at := members.get(x, best)).directory, x, at.facts)
+        for x in ESTIMATES
+    } | {BEST: best}
     return best

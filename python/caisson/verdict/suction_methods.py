@@ -163,11 +163,6 @@ def rests_of(
     return {case: rest(case) for case in method.cases}
 
 
-def finite(values: Mapping[str, float]) -> dict[str, float]:
-    """Return those that are numbers."""
-    return {name: value for name, value in values.items() if np.isfinite(value)}
-
-
 def cone_method_of(
     method: theory.Description, site: theory.Site, deepest: float
 ) -> Method | None:
@@ -194,7 +189,7 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
     rests = rests_of(theory.OF_CLAY, site, float(depth.max()))
     return Answers(
         depth,
-        rest=finite(rests),
+        rest={case: h for case, h in rests.items() if np.isfinite(h)},
         why_not=why_not,
         assumed=answer.assumed,
         in_clay=theory.Beside(answer.name, needed),
@@ -232,5 +227,5 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
     known = [cone.profile for cone in cones.values() if isinstance(cone, ConeMethod)]
     assumed = known[0].assumed if known else ""
     rests = rests_of(theory.METHODS[0], site, deepest)
-    rest = finite({column: rests[CASES[column]] for column in RANGE})
+    rest = {x: rests[CASES[x]] for x in RANGE if np.isfinite(rests[CASES[x]])}
     return Answers(depth, suctions, rest, assumed=assumed)
