@@ -99,9 +99,10 @@ def cpt(file: str | Path, out: str | Path, **options: Any) -> Path:
     file: GEF, AGS 4, BRO-XML, a workbook, or a table with the columns depth_m and
         qc_MPa and, where they were measured, fs_kPa and u2_kPa.
     out: the directory for layers.csv (low, best and high value of each parameter and
-        layer) and cpt.png; of a caisson also scene.prm and study.toml.
+        layer) and cpt.png; of a caisson also its scenes, and scene.html, their page
+        before any run.
     options: those of `caisson cpt`, such as diameter, skirt, wall (m) and weight (N) of
-        a caisson; run=True, which computes low, best and high and writes report.html;
+        a caisson; run=True, which computes low, best and high (scene/report.html);
         soil: "clay", or ["2=clay", ...]; round_trip=True.
 
     Prints the layers. Raises InputError where the file cannot be read or holds no cone

@@ -32,6 +32,8 @@ def caisson_of(run: Results) -> list[object]:
 def band_of(run: Results) -> dict[str, Results]:
     """Return the runs of the band around a best estimate that exist, by estimate, that
     run included; one of another caisson is none of them."""
+    if run.estimates:
+        return run.estimates
     found = {BEST: run}
     for estimate in (LOW, HIGH):
         directory = member_of(run.directory, estimate)

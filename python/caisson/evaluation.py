@@ -102,6 +102,8 @@ def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
     if DEPTH not in run.history or len((way := way_down(run)).depth) < 2:
         return {}
     at = depths_of(way.depth) if at is None else at
+    if run.by_hand:
+        return run.by_hand(at)
     means = {name: way.mean(name, at) for name in way.columns}
     return {DEPTH: at, **means, **error_bounds.at_depths(run, at, means)}
 

@@ -7,7 +7,7 @@ import json
 import math
 import re
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -85,6 +85,10 @@ class Results:
     def __init__(self, directory: Path) -> None:
         """directory: the output directory of the run."""
         self.directory = Path(directory)
+        # of a scene before its run, as verdict/by_hand.py has it: its columns at depths
+        # [n] (m), and itself in soil of low, best and high resistance
+        self.by_hand: Callable[[np.ndarray], Table] | None = None
+        self.estimates: dict[str, "Results"] = {}
 
     def table(self, name: str, column: str) -> Table:
         """Return a .csv file of the run that must have this column."""

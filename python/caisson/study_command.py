@@ -170,8 +170,6 @@ def make_missing(
 ) -> list[StudyRun]:
     """Make the runs that are not complete; return those of the part, or all. Raises
     StudyError where the kind refuses one of them."""
-    if hasattr(module, "check"):
-        module.check(studies)
     runs, again = [run for study in studies for run in study.runs], arguments.again
     is_own = module.NAME in KINDS
     to_do = survey(runs, again, resumes=is_own, asks_all=is_own)

@@ -66,14 +66,6 @@ class Estimates(unittest.TestCase):
         dense = self.ends(["0: Dr = 90%"], spread="Dr 10%")
         self.assertEqual(float(dense["high"][0].value("Relative density")), 1)
 
-    def test_of_a_cone_test(self) -> None:
-        """The entries of its study stand in the place of the best ones."""
-        best = layers_of(["0: phi = 33, E = 20 MPa"], KNOWN, "density")
-        choices = {x: {"Soil/Layer 1/Friction angle": 30.0} for x in band.SIGNS}
-        (low,) = band.of_choices(best, choices)["low"]
-        self.assertEqual(low.value("Friction angle"), "30")
-        self.assertEqual(low.value("Youngs modulus"), "20000000")
-
     def test_refusals(self) -> None:
         """A line says what to do."""
         cases: list[tuple[str, dict[str, object]]] = [

@@ -214,8 +214,8 @@ class HoulsbyByrne(unittest.TestCase):
     def test_table(self) -> None:
         for h, (tips, frictions) in TABLE.items():
             bodies = [caisson(wall) for wall in (0.05, 0.1, 0.2)]
-            found = [body.tip(h, e) for body in bodies for e in (False, True)]
-            found += [bodies[0].outer_friction(h, e) for e in (False, True)]
+            found = [body.forces(h, e).tip for body in bodies for e in (False, True)]
+            found += [bodies[0].forces(h, e).outer_friction for e in (False, True)]
             np.testing.assert_allclose(
                 np.array(found) / 1e3, tips + frictions, rtol=2e-3
             )
@@ -225,9 +225,13 @@ class HoulsbyByrne(unittest.TestCase):
         one, many = caisson(0.2), caisson(0.2, *halves)
         for h in (0.5, 1.3, 2, 5):
             for e in (False, True):
-                self.assertAlmostEqual(many.tip(h, e) / one.tip(h, e), 1, places=12)
                 self.assertAlmostEqual(
-                    many.inner_friction(h, e) / one.inner_friction(h, e), 1, places=12
+                    many.forces(h, e).tip / one.forces(h, e).tip, 1, places=12
+                )
+                self.assertAlmostEqual(
+                    many.forces(h, e).inner_friction / one.forces(h, e).inner_friction,
+                    1,
+                    places=12,
                 )
 
     def test_two_layers_by_hand(self) -> None:
@@ -236,11 +240,11 @@ class HoulsbyByrne(unittest.TestCase):
             6, 0.2, [Layer(0, 10e3, 30, 0.5), Layer(1, 20e3, 40, 0.25)], 45, 45
         )
         friction = np.pi * 6 * (0.5 * 5e3 + 0.25 * (10e3 + 10e3))
-        self.assertAlmostEqual(body.outer_friction(2, False), friction, places=6)
+        self.assertAlmostEqual(body.forces(2, False).outer_friction, friction, places=6)
         strong = caisson(0.2, Layer(0, 10e3, 40, 0.5), angles=(45, 45))
         # the tip is in the second layer: its angle counts, under 30 kPa
-        self.assertGreater(body.tip(2, False), strong.tip(2, False))
-        self.assertLess(body.tip(1, False), 0.5 * strong.tip(1, False))
+        self.assertGreater(body.forces(2, False).tip, strong.forces(2, False).tip)
+        self.assertLess(body.forces(1, False).tip, 0.5 * strong.forces(1, False).tip)
 
     def test_range_by_integration(self) -> None:
         """The stress and the friction of each K tan(delta), by small steps in depth;
@@ -287,15 +291,16 @@ class HoulsbyByrne(unittest.TestCase):
         layers = [Layer(0, 8e3, 30, 0.5), Layer(1.5, 10e3, 35, 0.5)]
         body = Caisson(6, 0.1, layers, 20, 20, k_tan_delta=(0.6, 0.7))
         for flow in (Seepage(), Seepage(3e3, -2e3)):
-            friction = body.outer_friction(4, False, flow)
+            friction = body.forces(4, False, flow).outer_friction
             self.assertAlmostEqual(body.k_tan_delta_of(friction, 4, flow), 0.7)
         self.assertTrue(np.isnan(body.k_tan_delta_of(0, 0, Seepage())))
 
     def test_each_wall_has_its_friction(self) -> None:
         body = caisson(0.2, angles=(0, 20))
-        self.assertEqual(body.inner_friction(3, True), 0)
+        self.assertEqual(body.forces(3, True).inner_friction, 0)
         self.assertAlmostEqual(
-            body.outer_friction(3, True), caisson(0.2).outer_friction(3, True)
+            body.forces(3, True).outer_friction,
+            caisson(0.2).forces(3, True).outer_friction,
         )
 
     def test_bearing_factor(self) -> None:

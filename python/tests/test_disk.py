@@ -301,7 +301,8 @@ class Commands(Temporary):
             "3000kN",
         )
         layer = ("--layer", "0: phi = 33, E = 20 MPa")
-        for name, value in (("query", "valid"), ("entries_of_layers", KNOWN)):
+        known = {"cost_of": "valid", "entries_of_layers": KNOWN, "by_hand": "a page"}
+        for name, value in known.items():
             patch = unittest.mock.patch(f"caisson.suggest.{name}", return_value=value)
             self.stack.enter_context(patch)
         self.check(lambda: self.call("suggest", scene, *size, *layer))
@@ -318,9 +319,9 @@ class Commands(Temporary):
                 park.prepare(table, 10, self.path / "park")
             return said.getvalue()
 
-        def write_all(options: argparse.Namespace) -> list[str]:
+        def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
             disk.write(options.file, f"set Title = {options.weight}\n")
-            return []
+            return [], ""
 
         table.touch()
         weights = iter("123")

@@ -445,49 +445,6 @@ class Evaluation(WithFiles):
         self.assertIn("required suction (kPa)", said.getvalue())
         self.assertRegex(said.getvalue(), r"angle 33 +\| -10 +\|")
 
-    def test_design_methods(self) -> None:
-        """Beside runs of two friction angles, from a cone test that each run keeps."""
-        (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n10,20\n")
-        layer = {"K0": 0.5, "submerged_unit_weight_N_m3": 8829.0}
-        scene = {"diameter_m": 6, "wall_thickness_m": 0.2}
-        found = self.outcomes(
-            'cone = "cone.csv"\n' + PHI + "values = [36, 30]", "1e5 * d", {}
-        )
-        for run in found.study.runs:
-            angle = run.settings["sample"]["Soil/Friction angle"]
-            walls = {f"{s}_wall_friction_angle_deg": 20 for s in ("inner", "outer")}
-            layers = [layer | {"friction_angle_deg": angle}]
-            summary = {"scene": scene | walls | {"layers": layers}}
-            (run.run.directory / "run.json").write_text(json.dumps(summary))
-        with contextlib.redirect_stdout(io.StringIO()) as said:
-            options = Options(results=self.path / "results")
-            self.assertEqual(parameters.evaluate([found.study], options, 0), 0)
-        self.assertIn("methods.csv", said.getvalue())
-        for run in found.study.runs:
-            self.assertTrue((run.run.directory / "cone.csv").is_file())
-        self.assertGreater((self.path / "results/s/methods.png").stat().st_size, 30000)
-        [row] = [r for r in self.rows("methods.csv") if float(r["penetration_m"]) == 4]
-        self.assertAlmostEqual(float(row["total_force_N [30]"]), 4e5)
-        # 0.3 8 MPa pi 5.8 0.2 m2 + 0.001 16 MN/m pi (5.6 + 6) m, whatever the angle
-        for angle in (30, 36):
-            force = float(row[f"dnv_most_probable_total_N [{angle}]"])
-            self.assertAlmostEqual(force / 9.329274e6, 1, places=5)
-        byrne = "houlsby_byrne_low_total_N"
-        self.assertLess(float(row[f"{byrne} [30]"]), float(row[f"{byrne} [36]"]))
-
-    def test_a_wrong_cone_test_stops_the_study(self) -> None:
-        """Before the first run, with its row."""
-        (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,1\n2,20\n1,20\n3,20\n")
-        found = self.outcomes(PHI + "values = [30]", "d", {})
-        found.study.keys["cone"] = "cone.csv"
-        with self.assertRaisesRegex(StudyError, "cone.csv, row 4: the depth of 1 m"):
-            parameters.check([found.study])
-        (self.path / "cone.csv").write_text("0,1\n1,20\n")  # asks for an option
-        with self.assertRaisesRegex(
-            StudyError, "; or name the table that `caisson sug"
-        ):
-            parameters.check([found.study])
-
     def test_observed(self) -> None:
         """What there is; what there is not is refused with the columns there are."""
         found = self.outcomes(PHI + "values = [30]", "1e3 * d", {})

@@ -147,12 +147,14 @@ class Anchor(unittest.TestCase):
 
     def test_rest(self) -> None:
         """Between the depths where the resistance is less than the weight and more."""
-        depth = np.array([0.0, 2, 4, 6])
-        force = np.array([1e5, 3e5, 5e5, 1e6])
+
+        def force(h: float) -> float:
+            return float(np.interp(h, [0.0, 2, 4, 6], [1e5, 3e5, 5e5, 1e6]))
+
+        rest_of = installation.self_weight_penetration
         for weight, rest in ((4e5, 3), (5e5, 4), (1e4, 0), (7.5e5, 5)):
-            found = installation.rest_without_flow(depth, force, weight)
-            self.assertAlmostEqual(found, rest)
-        self.assertTrue(np.isnan(installation.rest_without_flow(depth, force, inf)))
+            self.assertAlmostEqual(rest_of(force, weight, 6.0), rest)
+        self.assertTrue(np.isnan(rest_of(force, inf, 6.0)))
 
 
 if __name__ == "__main__":

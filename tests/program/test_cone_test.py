@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """caisson cpt, and scenes of caisson suggest from a cone test."""
-import tomllib
 import unittest
 
 import numpy as np
 
 from test_suggest import EXAMPLE, SuggestTest
 
-from caisson.design.expression import value_at
+from caisson.band import ESTIMATES, member_of
+from caisson.results import read_table
 from caisson.runner import read_parameters
 
 
@@ -16,27 +16,29 @@ class ConeTests(SuggestTest):
     """Layers that come from a cone test."""
 
     def test_layers_of_a_cone_test(self) -> None:
-        """The scene is accepted, with the best estimates and where they are from; the
-        study has low, best and high."""
+        """The scenes are accepted, with the estimates and where they are from; the cone
+        test is beside them, and on the page before any run."""
         path = self.made_directory()
-        scene, study = path / "own.prm", path / "own_study.toml"
-        words = ["--cpt", str(EXAMPLE), "--study", str(study), "--tops", "0,3"]
+        scene = path / "own.prm"
+        words = ["--cpt", str(EXAMPLE), "--tops", "0,3"]
         said = self.suggest(scene, *words, layers=())
         self.assertIn("layer 1 has silt from", said)
         self.assert_without_doubt(said)
         self.assertIn("# FROM CPT (own-cone)", scene.read_text("utf-8"))
-        entries = read_parameters([str(scene)])
-        with open(study, "rb") as file:
-            content = tomllib.load(file)
-        choices = content["parameters"]["soil"]["choices"]
-        self.assertEqual(list(choices), ["low", "best", "high"])
-        for entry, value in choices["best"].items():
-            written, chosen = (
-                value_at(str(text), 2.0, 0.0) or 0.0 for text in (entries[entry], value)
-            )
-            self.assertAlmostEqual(written / chosen, 1, places=2)
-        self.assertEqual(entries["Soil/Layer 2/Top depth"], "3")
-        self.assertTrue((path / content["cone"]).samefile(EXAMPLE))
+        densities = []
+        for estimate in ESTIMATES:
+            entries = read_parameters([str(member_of(scene, estimate))])
+            self.assertEqual(entries["Soil/Layer 2/Top depth"], "3")
+            densities.append(float(entries["Soil/Layer 2/Relative density"]))
+        self.assertEqual(densities, sorted(set(densities)))
+        test = read_table(path / "own_cone.csv")
+        self.assertEqual(test["depth_m"][-1], 20)
+        page = (path / "own.html").read_text("utf-8")
+        self.assertIn("By hand methods, not computed: jacked to", page)
+        self.assertNotIn("cone ASSUMED", page)
+        study = ["--study", str(path / "own.toml"), "--overwrite"]
+        said = self.suggest(scene, *words, *study, layers=(), status=1)
+        self.assertIn("run --band", said)
         refused = "either --layer, or a cone test by --cpt, or sand by --sand"
         both, neither = ["--cpt", str(EXAMPLE)], list[str]()
         other = path / "other.prm"
@@ -44,33 +46,26 @@ class ConeTests(SuggestTest):
         self.assertIn(refused, self.suggest(other, *neither, status=1, layers=()))
 
     def test_from_a_cone_test_to_a_report(self) -> None:
-        """By one command: three runs, all methods, one page."""
+        """By one command: a page before any run, and three runs on one page."""
         out = self.made_directory() / "out"
         words = ["--wall", "0.4", "--penetration", "0.53", "--out", str(out), "--run"]
         said = self.caisson("cpt", str(EXAMPLE), *words)
-        self.assertIn("report.html", said)
+        self.assertIn("scene/report.html", said)
+        self.assertIn("By hand methods, not computed", (out / "scene.html").read_text())
         with (out / "scene.prm").open("a", encoding="utf-8") as file:
             file.write("# mine\n")
         refused = self.caisson("cpt", str(EXAMPLE), *words, status=1)
         self.assertRegex(refused, "(?m)^cpt: .*scene.prm exists, and differs")
         self.assertIn("# mine", (out / "scene.prm").read_text("utf-8"))
-        page = (out / "report.html").read_text("utf-8")
-        for words_of_page in ("own-cone", "DNV", "layer 1 has silt"):
+        page = (out / "scene/report.html").read_text("utf-8")
+        for words_of_page in ("DNV", "low to high resistance", "Computed / method"):
             self.assertIn(words_of_page, page)
-        for named in (
-            r"Caisson: <b>diameter \S+ m, skirt \S+ m, wall 400 mm; tip to 0.53 m<",
-            "Ground: <b>cone test cpt_example.csv<",
-            r"Computed: <b>20\d\d-\d\d-\d\d \d\d:\d\d<",
-        ):
-            self.assertRegex(page, named)
-        for name in ("low", "best", "high"):
-            run = out / f"study/soil_{name}"
-            self.assertTrue((run / "report.html").is_file())
-            self.assertIn(f"study/soil_{name}/report.html", page)
-            self.assertTrue((run / "cone.csv").is_file())
-        head = (out / "study/methods.csv").read_text("utf-8").splitlines()[0]
-        self.assertIn("total_force_N [best]", head)
-        self.assertIn("_total_N [best]", head)
+        self.assertNotIn("cone ASSUMED", page)
+        self.assertNotIn("By hand methods", page)
+        for name in ("scene", "scene_low", "scene_high"):
+            self.assertTrue((out / name / "report.html").is_file())
+            self.assertTrue((out / name / "cone.csv").is_file())
+        head = (out / "scene/design.csv").read_text("utf-8").splitlines()[0]
         for method in ("houlsby_byrne", "dnv", "senders_randolph", "andersen"):
             self.assertIn(f"{method}_", head)
 

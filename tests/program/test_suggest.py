@@ -97,9 +97,10 @@ class Band(SuggestTest):
         ]
         for words, layers in cases:
             path = self.made_directory(f"{len(layers)}") / "own.prm"
-            words += ["--study", str(path.with_suffix(".toml"))]
+            study = path.with_suffix(".toml")
+            words += ["--study", str(study)] if layers else []
             text = self.suggest(path, *words, layers=layers)
-            self.assertRegex(text, "own_low.prm, .*own_high.prm; next: .* --band")
+            self.assertRegex(text, "own_high.prm, .*own.html; next: .* --band")
             self.assert_without_doubt(text)
             name = "Relative density" if not layers else "Friction angle"
             values = []
@@ -111,7 +112,11 @@ class Band(SuggestTest):
                 self.assertEqual(entries["Output/Directory"], f"results/own{end}")
                 values.append(float(entries[f"Soil/Layer 1/{name}"]))
             self.assertEqual(values, sorted(set(values)))
-            self.caisson_study(path.with_suffix(".toml"))
+            page = path.with_suffix(".html").read_text(encoding="utf-8")
+            self.assertIn("By hand methods, not computed: jacked to", page)
+            self.assertRegex(page, r"It takes about \d.*<code>.*run --band ")
+            if layers:
+                self.caisson_study(study)
 
     def caisson_study(self, file: Path) -> None:
         """Let the program read the runs of a study."""
@@ -303,7 +308,7 @@ class Words(SuggestTest):
         self.assertEqual(list(path.iterdir()), [])
         self.suggest(path / "own.prm", *words, layers=(SAND,))
 
-    def test_study_of_an_ags_file(self) -> None:
+    def test_scene_of_an_ags_file(self) -> None:
         """It has the chosen test as a table beside it."""
         path = self.made_directory()
         rows = EXAMPLE.read_text("utf-8").splitlines()
@@ -314,13 +319,12 @@ class Words(SuggestTest):
         lines += [["DATA", name, *row] for name in ("A", "B") for row in cells]
         text = "\n".join(",".join(f'"{cell}"' for cell in line) for line in lines)
         (path / "site.ags").write_text(text, "utf-8")
-        words = ["--cpt", str(path / "site.ags"), "--study", str(path / "s.toml")]
+        words = ["--cpt", str(path / "site.ags")]
         said = self.suggest(path / "own.prm", *words, status=1, layers=())
         self.assertIn("2 tests: A, B; choose one by --location", said)
         self.suggest(path / "own.prm", *words, "--location", "B", layers=())
-        content = tomllib.loads((path / "s.toml").read_text("utf-8"))
-        self.assertEqual(content["cone"], "s_cone.csv")
-        kept, given = (cone_file.read(file) for file in (path / "s_cone.csv", EXAMPLE))
+        files = path / "own_cone.csv", EXAMPLE
+        kept, given = map(cone_file.read, files)
         self.assertEqual(list(kept.depth), list(given.depth))
         self.assertLess(abs(kept.resistance / given.resistance - 1).max(), 1e-6)
 

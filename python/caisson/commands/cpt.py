@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Layers of soil and their parameters, low, best and high, from a cone test; of a
-caisson also its scene, and a study of the three estimates beside all design methods.
+caisson also its scenes, and what hand methods say of them.
 
     caisson cpt FILE
     caisson cpt FILE --diameter 10 --skirt 8 --wall 40mm --run
@@ -8,20 +8,22 @@ caisson also its scene, and a study of the three estimates beside all design met
 
 The file is GEF, AGS 4, BRO-XML, a workbook (.xlsx) or a table with the columns depth_m
 and qc_MPa and, where they were measured, fs_kPa and u2_kPa. Results go to
-results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm and study.toml, and
-with --run report.html. With --round-trip a cone is pushed into the ground of the scene,
-and round_trip.csv and .png have what it meets beside what was measured.
+results/cpt/NAME: layers.csv and cpt.png; of a caisson scene.prm, its page scene.html
+before any run, and scene_low.prm and scene_high.prm in soil of low and of high
+resistance. --run runs all three, whose page is scene/report.html. With --round-trip a
+cone is pushed into the ground of the scene, and round_trip.csv and .png have what it
+meets beside what was measured.
 """
 import argparse
 from math import inf
 from pathlib import Path
 
 from caisson import disk, suggest
-from caisson.commands import cpt_page, round_trip
+from caisson.band import ESTIMATES, HIGH, LOW, member_of
+from caisson.commands import round_trip, run, run_band
 from caisson.design import cone_picture, cone_texts, interpretation
-from caisson.paths import RESULTS, scene_or_study, short
+from caisson.paths import RESULTS, scene_or_study, seen, short
 from caisson.study import file_name
-from caisson.study_command import whole_number
 from caisson.suggest.cone import REACH
 from caisson.disk import InputError
 from caisson.terminal import printable
@@ -29,7 +31,7 @@ from caisson.design.correlations import EVERY
 from caisson.design.interpretation import Interpretation
 
 SIZES = ("diameter", "skirt", "wall")
-SCENE, STUDY = "scene.prm", "study.toml"
+SCENE = "scene.prm"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,11 +41,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--list", action="store_true", help="list the correlations, and do no more")
     add("--overwrite", action="store_true", help="replace files that were changed")
-    add("--run", action="store_true", help="run the study of a caisson")
+    text = "run the scenes of a caisson, also in soil of low and of high resistance"
+    add("--run", action="store_true", help=text)
     text = "push a cone into the ground found, and compare it with the test"
     add("--round-trip", action="store_true", help=text)
-    text = "runs at a time, default: the fastest"
-    add("--jobs", type=whole_number, metavar="N", help=text)
     suggest.add_caisson_arguments(parser, required=False)
     interpretation.add_arguments(parser)
 
@@ -62,15 +63,6 @@ def check(options: argparse.Namespace) -> bool:
     return bool(given)
 
 
-def caisson_of(options: argparse.Namespace) -> str:
-    """Return the caisson in words."""
-    weight = f", weight in water {options.weight / 1e3:g} kN" if options.weight else ""
-    return (
-        f"diameter {options.diameter:g} m, skirt {options.skirt:g} m, wall"
-        f" {options.wall * 1e3:g} mm{weight}; tip to {suggest.end_of(options):g} m"
-    )
-
-
 def write(
     found: Interpretation, directory: Path, tip: float | None, location: str
 ) -> list[Path]:
@@ -86,6 +78,14 @@ def write(
             directory / "cpt.png", title, found.ground, found.layers, found.names, tip
         ),
     ]
+
+
+def write_scenes(options: argparse.Namespace, scene: Path) -> str:
+    """Write the scenes of a caisson; return their page."""
+    options.file, options.results = scene, seen(scene.parent)
+    options.layer = options.sand = options.density = options.study = None
+    options.overwrite = True
+    return suggest.write(options, [LOW, HIGH])  # which prints the table
 
 
 def report(files: list[Path]) -> None:
@@ -112,24 +112,19 @@ def main(options: argparse.Namespace) -> int:
     cone = round_trip.Cone(found, directory, cone_end, tip or inf)
     if options.round_trip:
         cone.check()
+    scene, page = directory / SCENE, ""
     with disk.all_or_none(options.overwrite):
         files = write(found, directory, tip, options.location)
         if options.round_trip:
             files.append(cone.write_scene())
         if has_caisson:
-            options.file, options.study = directory / SCENE, directory / STUDY
-            options.layer = options.sand = options.density = None
-            options.overwrite = True
-            suggest.write(options)  # which prints the table
-            files += [options.file, options.study]
+            page = write_scenes(options, scene)
+            files += [member_of(scene, estimate) for estimate in ESTIMATES]
+    if page:
+        files.append(disk.write(suggest.page_of(scene), page))
     report(files)
     if options.round_trip:
         report(cone.run())
     if not options.run:
         return 0
-    status = cpt_page.run_study(options.study, directory, options.jobs)
-    name = f"{found.name} {printable(options.location)}".rstrip()
-    facts = [("Caisson", caisson_of(options)), ("Ground", f"cone test {name}")]
-    page = cpt_page.write(cone, options.study, facts)
-    report([page])
-    return status
+    return run_band.main([str(scene)], run.draw, run.reporting)

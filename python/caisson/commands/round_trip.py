@@ -107,13 +107,6 @@ class Cone:
         directory = self.directory.resolve()
         return Run(directory / SCENE, directory=directory / RESULTS)
 
-    def known(self) -> Answer | None:
-        """Return what it met; None where it did not go into this ground."""
-        run = self.of_program
-        if not run.scene.is_file() or disk.read_text(run.scene) != self.scene():
-            return None
-        return self.answer() if run.is_complete() else None
-
     def answer(self) -> Answer:
         """Return what it met beside what was measured."""
         history, ground = (

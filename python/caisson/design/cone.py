@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson import disk
+from caisson.band import HIGH, LOW
 from caisson.design import cone_file
 from caisson.disk import InputError
 from caisson.design.cone_options import How
@@ -149,6 +150,18 @@ def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
     else:
         disk.keep(target, cone_file.text_of(test))
     return test.remarks
+
+
+def beside(scene: Path) -> Path:
+    """Return where the cone test of a scene is, also of the low or high one."""
+    stem = scene.stem.removesuffix(f"_{LOW}").removesuffix(f"_{HIGH}")
+    return scene.with_name(f"{stem}_{NAME}")
+
+
+def adopt_beside(directory: Path, scene: Path) -> None:
+    """Keep the cone test beside a scene with its run, unless that has one."""
+    if beside(scene).is_file() and not (directory / NAME).exists():
+        adopt(beside(scene), directory)
 
 
 def of_run(directory: Path) -> Profile | None:

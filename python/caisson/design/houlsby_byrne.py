@@ -191,24 +191,6 @@ class Caisson:
         whole = pi * self.outer.diameter * integral
         return friction / whole if whole > 0 else nan
 
-    def inner_friction(
-        self, h: float, enhanced: bool, seepage: Seepage = STILL
-    ) -> float:
-        """Return the friction on the inner wall."""
-        return self._go_down(self.inner, h, enhanced, seepage.inner)[1]
-
-    def outer_friction(
-        self, h: float, enhanced: bool, seepage: Seepage = STILL
-    ) -> float:
-        """Return the friction on the outer wall."""
-        return self._go_down(self.outer, h, enhanced, seepage.outer)[1]
-
-    def tip(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
-        """Return the force on the tip, with a flat end of the wall."""
-        inner, _ = self._go_down(self.inner, h, enhanced, seepage.inner)
-        outer, _ = self._go_down(self.outer, h, enhanced, seepage.outer)
-        return self._tip_between(inner, outer, h, seepage)
-
     def _tip_between(
         self, inner: float, outer: float, h: float, seepage: Seepage
     ) -> float:
@@ -227,11 +209,17 @@ class Caisson:
             end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
         return end * pi * (self.outer_diameter - t) * t
 
-    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
-        """Return the friction on both walls and the force on the tip."""
+    def forces(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> Forces:
+        """Return the force on the tip, with a flat end of the wall, and the friction
+        on both walls."""
         inner, inside = self._go_down(self.inner, h, enhanced, seepage.inner)
         outer, outside = self._go_down(self.outer, h, enhanced, seepage.outer)
-        return outside + inside + self._tip_between(inner, outer, h, seepage)
+        return Forces(self._tip_between(inner, outer, h, seepage), inside, outside)
+
+    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+        """Return the friction on both walls and the force on the tip."""
+        tip, inside, outside = self.forces(h, enhanced, seepage)
+        return outside + inside + tip
 
 
 class Assumptions(NamedTuple):
@@ -270,8 +258,7 @@ class HoulsbyByrne:
     def forces_under(self, flow: Seepage, h: float, case: str) -> Forces:
         """Return the forces at an embedment under flow."""
         caisson, enhanced = self.by_name[case]
-        parts = (caisson.tip, caisson.inner_friction, caisson.outer_friction)
-        return Forces(*(part(h, enhanced, flow) for part in parts))
+        return caisson.forces(h, enhanced, flow)
 
 
 def method(

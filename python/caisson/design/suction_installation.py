@@ -26,7 +26,7 @@ Through clay hardly any water flows, so that suction leaves the forces as they a
 
 SI units; h is the embedment of the tip (m), forces are N, suctions are Pa.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import inf, nan, pi
 
 import numpy as np
@@ -35,6 +35,9 @@ from scipy.optimize import brentq
 from caisson.design.houlsby_byrne import Caisson, Seepage
 from caisson.design.method import Forces
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
+
+
+ROUNDS = 40  # of a bisection, which leave 1e-12 of a depth
 
 
 def bisect(
@@ -60,47 +63,31 @@ def suction_without_flow(
     return np.maximum(resistance - weight, 0.0) / area
 
 
-def rest_without_flow(
-    depth: np.ndarray, resistance: np.ndarray, weight: float
-) -> float:
-    """Return the embedment at which a resistance [n] at depths [n] first bears the
-    weight; nan where it does not."""
-    stands = np.flatnonzero(resistance >= weight)
-    if not len(stands):
-        return nan
-    ends = slice(max(int(stands[0]) - 1, 0), int(stands[0]) + 1)
-    return float(np.interp(weight, resistance[ends], depth[ends]))
-
-
 def self_weight_penetration(
-    caisson: Caisson, weight: float, enhanced: bool, deepest: float
+    resistance: Callable[[float], float],
+    weight: float,
+    deepest: float,
+    tops: Iterable[float] = (),
 ) -> float:
-    """Return the embedment at which the caisson first stands without suction.
+    """Return the embedment at which a caisson first stands without suction; nan where
+    it sinks in deeper than deepest (m).
 
-    weight: effective, V'; deepest: length of the skirt. Raises ValueError where
-    the caisson sinks in deeper than this. The resistance grows with depth inside a
-    layer, but may fall from layer to layer.
+    resistance: by the embedment (N); weight: effective, V'; tops: of the layers (m),
+    from the mudline down. The resistance grows with depth inside a layer, but may fall
+    from layer to layer.
     """
 
     def stands(h: float) -> bool:
-        return caisson.resistance(h, enhanced) >= weight
+        return resistance(h) >= weight
 
     if stands(0):
         return 0.0
     top = 0.0
-    for layer in caisson.layers[1:]:
-        bottom = min(layer.top, deepest)
-        if bottom > top and stands(bottom):
-            return bisect(stands, top, bottom)[1]
-        top = max(top, bottom)
-    if not stands(deepest):
-        raise ValueError(
-            f"the caisson sinks in by its weight of {weight:g} N deeper than"
-            f" {deepest:g} m, where its resistance is"
-            f" {caisson.resistance(deepest, enhanced):g} N:"
-            " no suction is needed down to this depth"
-        )
-    return bisect(stands, top, deepest)[1]
+    for bottom in [*(x for x in tops if 0 < x < deepest), deepest]:
+        if stands(bottom):
+            return bisect(stands, top, bottom, ROUNDS)[1]
+        top = bottom
+    return nan
 
 
 def seepage(

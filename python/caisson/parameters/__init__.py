@@ -14,8 +14,6 @@ because the parameters make the runs:
     depths         of the table (m), default each meter and the end
     tornado_depth  of tornado.png (m), default the deepest of depths in all runs
     reference = {} runs the scene as it is, too, for fan.png
-    cone           a file with a cone test, beside this one: the design methods stand
-                   beside the runs in methods.png and methods.csv
 
 The tables [parameters.NAME] are in the manual (doc/how_to/studies.md): values, range,
 choices, times, formula or distribution of the entry of this name, or of entry = "..."
@@ -28,33 +26,23 @@ runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png
 a Latin hypercube, surface.csv: P5, P50 and P95 of the penetration by weight and of what
 is observed at the quarters of the planned penetration, and the probability of refusal,
 by a response surface (caisson.parameters.surface).
-A cone test is read before the first run, and kept with each of them.
 """
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.parameters import methods, pictures, surface, tables
+from caisson.parameters import pictures, surface, tables
 from caisson.parameters.outcome import Outcomes
 from caisson.parameters.sampling import LATIN, runs_of
 from caisson.paths import short
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError, file_name
-from caisson.design import cone
-from caisson.disk import InputError
 
 NAME = "parameters"
 STUDY_KEYS = set(
-    "parameters sampling samples seed correlations observe depths tornado_depth"
-    " cone".split()
+    "parameters sampling samples seed correlations observe depths tornado_depth".split()
 )
 RUN_KEYS = {"sample"}
 make_runs = runs_of
-
-
-def check(studies: Sequence[Study]) -> None:
-    """Read what is beside the runs. Raises StudyError."""
-    for study in studies:
-        cone_of(study)
 
 
 def refuse(studies: Sequence[Study], runs: Sequence[StudyRun]) -> None:
@@ -73,37 +61,6 @@ def refuse(studies: Sequence[Study], runs: Sequence[StudyRun]) -> None:
     raise StudyError(text)
 
 
-def cone_of(study: Study) -> Path | None:
-    """Return the cone test of a study, None where it names none. Raises StudyError
-    where it cannot be read."""
-    if "cone" not in study.keys:
-        return None
-    path = study.file.parent / str(study.keys["cone"])
-    try:
-        cone.read(path)
-    except InputError as error:
-        way = ""
-        if " --" in str(error):  # an option, which a study does not have
-            way = "; or name the table that `caisson suggest --cpt` writes with --study"
-        raise StudyError(f"{study.file}: cone: {error}{way}") from error
-    return path
-
-
-def by_methods(directory: Path, outcomes: Outcomes) -> list[Path]:
-    """Keep the cone test with each run, and write what the design methods say beside
-    the runs; return the files."""
-    test = cone_of(outcomes.study)
-    if test is None:
-        return []
-    for outcome in outcomes.complete:
-        cone.adopt(test, outcome.run.run.directory)
-    found = methods.answers_of(outcomes)
-    return [
-        methods.write(directory / "methods.csv", found),
-        methods.draw(directory / "methods.png", found, outcomes),
-    ]
-
-
 def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
     """Write and print the results of each study; return 1 where a run is missing."""
     status = 0
@@ -119,7 +76,6 @@ def evaluate(studies: Sequence[Study], options: Options, _: float) -> int:
                 tables.write_fan(directory / "fan.csv", outcomes),
                 pictures.draw_fan(directory / "fan.png", outcomes),
                 pictures.draw_tornado(directory / "tornado.png", outcomes, depth),
-                *by_methods(directory, outcomes),
             ]
             if study.keys.get("sampling") == LATIN:
                 found = surface.of_study(outcomes)

@@ -25,9 +25,18 @@ def draw(directory: Path) -> list[Path]:
 
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
-    error_bounds.adopt(directory)
+    adopt_what_is_beside(directory)
     with rc_context({"font.size": SMALL, "axes.titlesize": SMALL}):
         return _drawn(directory, Results(directory))
+
+
+def adopt_what_is_beside(directory: Path) -> None:
+    """Keep the error bar and the cone test beside its scene with a run."""
+    error_bounds.adopt(directory)
+    if scene := str(Results(directory).known.get("scene_file") or ""):
+        from caisson.design import cone
+
+        cone.adopt_beside(directory, Path(scene))
 
 
 def _drawn(directory: Path, run: Results) -> list[Path]:

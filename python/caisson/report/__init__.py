@@ -10,7 +10,7 @@ from pathlib import Path
 
 from caisson import disk, error_bounds
 from caisson.command_line import for_each
-from caisson.plot import add_method_arguments, draw, keep_methods
+from caisson.plot import add_method_arguments, adopt_what_is_beside, draw, keep_methods
 from caisson.results import Results, ResultsError
 
 NAME = "report.html"
@@ -28,7 +28,7 @@ def write(directory: Path, rate: float | None = None) -> Path:
         raise ResultsError(f"--rate {given}: give m/h above 0")
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
-    error_bounds.adopt(directory)
+    adopt_what_is_beside(directory)
     verdict.keep(Results(directory))
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
     return disk.write(directory / NAME, text)

@@ -95,5 +95,7 @@ def quarters_of(
     }
     sides = [e for e in (LOW, BEST, HIGH) if e in required]
     names = " and ".join(member.directory.resolve().name for member in ends.values())
+    if run.by_hand:
+        names = say("what_ends_are", len({x.directory for x in run.estimates.values()}))
     of_all = [[f"{name}, {estimate}", *required[estimate]] for estimate in sides]
     return table | {"rows": of_all + rows, "ends": names}

@@ -35,6 +35,7 @@ LIGHT = {  # of Houlsby & Byrne
     "outer friction": "#93c4a6",
 }
 CRITICAL_COLORS = ("#b35806", "#e08214", "#8c6d31", "#bd9e39")  # as CRITICAL
+FIRST = 6  # curves of a chart at first sight; a click shows the others
 MANY = 1500  # points of a curve that a screen can show
 
 Curve = dict[str, Any]  # label, color, kind, x, y; see page.js
@@ -88,16 +89,21 @@ def own(
     return [line(label, color, x[rows], depth[rows], thick=True), behind]
 
 
+def mark_of(run: Results) -> str:
+    """Return what stands behind the name of a curve that no run has computed."""
+    return ", best by hand" if run.by_hand else ""
+
+
 def method_curves(run: Results, deepest: float) -> list[Curve]:
     """Return the ranges of the design methods (kN) over depth (m). Only tip and total
     by Houlsby & Byrne are shown at first; nothing where there is suction, as they are
     forces of jacking."""
     found: list[Curve] = []
-    if forces.has_suction(run):
+    if forces.has_suction(run) and not run.by_hand:
         return found
     for answer in theory.answers_to(theory.site_of(run), deepest):
         first = answer.method is theory.METHODS[0]
-        for part in (theory.PARTS if first else SHOWN) if answer.forces else ():
+        for part in reversed(theory.PARTS if first else SHOWN) if answer.forces else ():
             low, high = [force / 1e3 for force in answer.band(part)]
             label = f"{part}, {answer.name}"
             color = LIGHT[part] if first else answer.method.color
@@ -143,8 +149,9 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
     found += range_curve(run, forces.column_of("total"), "total")
     for name, color in forces.COLORS.items():
         if forces.column_of(name) in history:
-            force = forces.smooth(depth, history[forces.column_of(name)])
-            found += own(name, color, force, depth, end)
+            column = history[forces.column_of(name)]
+            force = column / 1e3 if run.by_hand else forces.smooth(depth, column)
+            found += own(f"{name}{mark_of(run)}", color, force, depth, end)
     if (total := history.get(curves.WITH_WATER)) is not None:
         mean = forces.smooth(depth, total)
         found.append(
@@ -239,17 +246,34 @@ def suction_curves(
         area = band("required, error bar", "black", low, high, at)
         shown.append(area | {"bars": True})
     required = np.maximum(history["required_suction_Pa"], 0) / 1e3
-    label = "required, computed"
+    label = f"required{mark_of(run) or ', computed'}"
     return shown + own(label, "black", required, depth, end)
+
+
+def rank_of(curve: Curve) -> int:
+    """Return the place of a curve among those that are seen first: of the run, the
+    allowable suction, low to high, the error bar, bands of methods, and the rest."""
+    marks = "thick", "full", "shade", "bars", "to"
+    return next((i for i, mark in enumerate(marks) if curve.get(mark)), len(marks))
+
+
+def at_first_sight(found: list[Curve]) -> list[Curve]:
+    """Hide all curves but the first ones, and what is behind the end of these."""
+    seen = [c for c in found if not c.get("hidden") and c["color"] != GRAY]
+    for curve in sorted(seen, key=rank_of)[FIRST:]:
+        curve["hidden"] = True
+    return found
 
 
 def with_points(found: list[Curve]) -> list[Curve]:
     """Return the curves that have a point to draw."""
-    return [
-        curve
-        for curve in found
-        if any(x is not None for x in [*curve["x"], *curve.get("to", [])])
-    ]
+    return at_first_sight(
+        [
+            curve
+            for curve in found
+            if any(x is not None for x in [*curve["x"], *curve.get("to", [])])
+        ]
+    )
 
 
 def figure_in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 """What a report says of the design methods: their numbers beside those of the run,
 computed over method, and why the run is where it is."""
 import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import depths_of
-from caisson.verdict import design, suction_methods, theory
+from caisson.verdict import by_hand, design, suction_methods, theory
 from caisson.plot.suction import CRITICAL
 from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
@@ -19,7 +20,8 @@ from caisson.table import by_rows, text_of
 from caisson.template import say
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
-from caisson.verdict.installation import needs_suction
+from caisson.verdict.installation import Installation, Rate, installation_of
+from caisson.verdict.installation import needs_suction, plug_area
 
 SENTENCES = Path(__file__).with_name("methods.jinja")
 RATIO = "computed / "  # before the name of a method
@@ -31,6 +33,12 @@ UNDISTURBED_IS = (
 )
 # the critical suctions that a table has
 SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
+MADE_FOR = {"unified": ", for piles", "andersen": ", a scatter"}
+NOT_IN_MEAN = " *"
+OVERVIEW = (
+    *("method", "rests at (m)", "resistance (kN)"),
+    *("(R - W) / A, no flow (kPa)", "required suction (kPa)"),
+)
 AT_DEPTH = 0.05  # m, between a depth and the frame that is taken for it
 NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
@@ -181,10 +189,12 @@ def suction_tables(
         if found.suctions
     }
     title, columns = "Required and critical suction (kPa)", {"depth (m)": at}
+    mine = None if run.by_hand else required
     suctions = beside(
-        title, columns, required, found.required, run.shown, "required, ", critical
+        title, columns, mine, found.required, run.shown, "required, ", critical
     )
-    methods = under_suction(run, at, site, answers)
+    if not (methods := [] if run.by_hand else under_suction(run, at, site, answers)):
+        return [suctions]
     resistance = beside(
         "Resistance under the suction of the run (kN)",
         {"depth (m)": at, "suction (kPa)": required / 1e3},
@@ -192,7 +202,7 @@ def suction_tables(
         methods,
         run.shown,
     )
-    return [suctions, resistance] if methods else [suctions]
+    return [suctions, resistance]
 
 
 # ------------------------------------------------------------------ why
@@ -230,7 +240,7 @@ def compared(run: Results, h: float) -> reasons.Compared | None:
     if not ratio:
         return None
     low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
-    frictions = computed.outer_friction, caisson.outer_friction(h, False, flow)
+    frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
     walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
     return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
@@ -318,6 +328,60 @@ def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
     return Forces(*(float(answer.forces[case][part][i]) for part in theory.PARTS[:3]))
 
 
+# ------------------------------------------------------- one beside the other
+
+
+def overview(run: Results, found: Installation, planned: float) -> dict[str, Any]:
+    """Return heads and rows of what each method says of a caisson with a weight, from
+    its lower to its upper case: where it rests, resistance and required suction at the
+    planned depth (m), or where the run has ended above, and below them the run. Empty
+    without a method, or where no suction is computed."""
+    weight = float(run.scene.get(suction_methods.WEIGHT) or 0)
+    if not weight or not (found.has_suction or run.by_hand):
+        return {}
+    shown, site, area = run.shown, theory.site_of(run), 1e3 * plug_area(run.scene)
+    depth = planned if run.by_hand else min(planned, float(found.depth[-1]))
+    at = np.array([depth])
+    counted = [answer.method for answer in by_hand.answers_of(site, at)]
+    needs = {x.name: x.cases for x in suction_methods.answers_of(site, at).every}
+
+    def pair(values: Iterable[Any], unit: str, none: str) -> str:
+        known = [float(x) * shown.factor(unit) for x in values]
+        texts = [text_of(x) or none for x in known]
+        return " to ".join(dict.fromkeys(texts)) or "-"
+
+    def cells(
+        name: str, rests: Iterable[Any], forces: Sequence[Any], needs: Iterable[Any]
+    ) -> list[str]:
+        plain = [max(float(x) - weight, 0.0) / area for x in forces]
+        return [
+            name,
+            pair(rests, "m", f"below {shown.place(depth)}"),
+            pair([x / 1e3 for x in forces], "kN", ""),
+            pair(plain, "kPa", ""),
+            pair([x / 1e3 for x in needs], "kPa", NO_ANSWER),
+        ]
+
+    rows = list[list[str]]()
+    for answer in theory.answers_of(site, at):
+        if not answer.forces:
+            continue
+        name = answer.name + MADE_FOR.get(answer.method.key, "")
+        mark = "" if not run.by_hand or answer.method in counted else NOT_IN_MEAN
+        rests = suction_methods.rests_of(answer.method, site, depth).values()
+        cases = needs.get(answer.name, {}).values()
+        rows.append(cells(name + mark, [*rests][::-1], answer.band("total"), cases))
+    if not rows or (here := installation_of(run, Rate(), at)) is None:
+        return {}
+    rest = [] if found.rest is None else [found.rest]
+    own = [here.forces[design.FORCES[-1]] * 1e3] if run.by_hand else []
+    name = "best: the mean" if run.by_hand else "computed"
+    rows.append(cells(name, rest, own, here.required * 1e3))
+    heads = map(shown.named, OVERVIEW)
+    note = say(SENTENCES, "overview", bool(run.by_hand))
+    return {"heads": [*heads], "rows": rows, "note": note, "place": shown.place(depth)}
+
+
 # ------------------------------------------------------------------ all
 
 
@@ -353,7 +417,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     answers = theory.answers_of(site, at)
     with_suction, total = needs_suction(run), design.FORCES[-1]
     computed = None
-    if total in history and not with_suction:
+    if total in history and not with_suction and not run.by_hand:
         computed = design.compared_at(history, at)[total]
     title = "Total force (kN)"
     if computed is None:
@@ -362,7 +426,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
     leaves = ""
     if with_suction:
-        columns, rest = relief.table_of(run, at)
+        columns, rest = ({}, None) if run.by_hand else relief.table_of(run, at)
         leaves = say(SENTENCES, "suction_leaves", run.shown, rest) if columns else ""
         title = "What suction leaves of the forces"
         left = [table(title, columns, run.shown)] if columns else []
@@ -370,7 +434,10 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     # the deepest of them that a cone test reaches
     end = site.cone.depth[-1] if site.cone else np.inf
     h = float(max((z for z in at if z <= end), default=at[-1]))
-    why = [why_of(run, at), *others_of(run, h, theory.answers_of(site, np.array([h])))]
+    why = list[str]()
+    if not run.by_hand:
+        at_h = theory.answers_of(site, np.array([h]))
+        why = [why_of(run, at), *others_of(run, h, at_h)]
     notes = [theory.about_cone(site, float(at.max())), leaves]
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)

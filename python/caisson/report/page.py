@@ -9,11 +9,12 @@ import numpy as np
 
 from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
-from caisson.verdict import installation, limits, outcome, run_review, theory
+from caisson.band import BEST
+from caisson.verdict import by_hand, installation, limits, outcome, run_review, theory
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
-from caisson.results import Results
+from caisson.results import Results, ResultsError
 from caisson.report import acceptance, band, content, layers, methods, pull, remedies
 from caisson.report import scene, sketch, trace, verdict
 from caisson.report.content import SENTENCES
@@ -24,8 +25,9 @@ LIMITS = HERE / "limits.jinja"
 # of a page: a card is left out where nothing stands for what it shows
 MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
-    " factors remedies warnings computed tables has_bar has_suction averaged rate"
-    " pictures units methods remarks entries defaults facts acceptance signed".split(),
+    " next overview factors remedies warnings computed tables has_bar has_suction"
+    " averaged rate pictures units methods remarks entries defaults facts acceptance"
+    " signed".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -82,6 +84,8 @@ def status_of(run: Results) -> str:
         words = duration(left) if left else ""
         how = progress_of(run), words, is_locked(run.directory), REFRESH
         return say(SENTENCES, "going_on", *how)
+    if run.by_hand:
+        return say(SENTENCES, "to_come", run.summary)
     last = float(run.history.get("penetration_m", np.zeros(1)).max())
     return say(SENTENCES, "status", run, last, verdict.verdict_of(run).end)
 
@@ -156,10 +160,27 @@ def render(
     )
 
 
+def not_begun(run: Results) -> Results:
+    """Return a run or, as long as it has not begun its way down, what hand methods say
+    of its scene."""
+    if run.by_hand or not run.is_running or not run.scene or outcome.whole_way(run):
+        return run
+    try:
+        hand = by_hand.band_of({BEST: by_hand.ByHand(run.directory)})
+        return hand if hand.history else run
+    except (ResultsError, theory.NotApplicable):
+        return run
+
+
 def html(run: Results, rate: Rate) -> str:
-    """Return the page. Raises ResultsError or OSError."""
-    end, name = verdict.verdict_of(run).end, run.directory.resolve().name
-    known, found = dict[str, Any](), None
+    """Return the page of a run, or of a scene before it. Raises ResultsError or
+    OSError."""
+    name, known = run.directory.resolve().name, dict[str, Any]()
+    if run.is_running:
+        known |= {"progress": progress_of(run), "refresh": REFRESH}
+    known |= {"status": status_of(run), "incomplete": incomplete_of(run)}
+    run = not_begun(run)
+    end, found = verdict.verdict_of(run).end, None
     if evaluation.is_pull(run):
         known |= {"verdict": verdict.verdict_of(run), "cards": pull.cards_of(run)}
     else:
@@ -174,8 +195,6 @@ def html(run: Results, rate: Rate) -> str:
             "cards": band.cards_of(run, own) + methods.card_of(beside),
             "methods": beside | {"tables": tables},
         }
-    if run.is_running:
-        known |= {"progress": progress_of(run), "refresh": REFRESH}
     if run.scene or not run.is_running:
         known |= of_scene(run, end)
     title = str(known.pop("title", "") or name)
@@ -184,25 +203,31 @@ def html(run: Results, rate: Rate) -> str:
         content.figures_of(run, found, end),
         content.csv_of(run.history),
         name=name,
-        status=status_of(run),
-        incomplete=incomplete_of(run),
         computed=what_was_computed(run, found),
-        averaged=content.averaged(run),
         rate=rate.words,
-        units=content.unit_table(run, end),
-        pictures=pictures_of(run),
-        remarks=content.remarks_on_numbers(run),
-        facts=facts_of(run),
-        **trace.foot_of(run, title),
+        **({} if run.by_hand else of_records(run, end, title)),
         **known,
     )
+
+
+def of_records(run: Results, end: float | None, title: str) -> dict[str, Any]:
+    """Return what only the records of a run say; end: where suction ends (m); title: of
+    the page."""
+    return trace.foot_of(run, title) | {
+        "averaged": content.averaged(run),
+        "units": content.unit_table(run, end),
+        "pictures": pictures_of(run),
+        "remarks": content.remarks_on_numbers(run),
+        "facts": facts_of(run),
+    }
 
 
 def of_scene(run: Results, end: float | None) -> dict[str, Any]:
     """Return what run.json says of the scene; end: where suction ends (m)."""
     return {
         "title": run.summary.get("title"),
-        "job": say_rows(SENTENCES, "job", run.summary, layers.use_of(run)),
+        "next": run.summary.get("next"),
+        "job": say_rows(SENTENCES, "job", run, layers.use_of(run)),
         "warnings": run_review.warnings_of(run, end),
         "entries": scene.entries_of(run),
         "defaults": scene.defaults_of(run),
@@ -219,12 +244,14 @@ def of_installation(
     tops = theory.uncovered(theory.site_of(run), found.depth)
     bounds = found.required_bounds if found.has_suction else found.force_bounds
     reach = bounds.end if bounds else None, found.depth[-1]
+    way = installation.way_to_an_error(run)
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
-        "bar": say(LIMITS, "bar", run.shown, *reach, installation.way_to_an_error(run)),
+        "bar": "" if run.by_hand else say(LIMITS, "bar", run.shown, *reach, way),
         "uncertainty": band.uncertainty_of(run),
         "factors": say(LIMITS, "factors", run.shown, sources, rings, tops),
+        "overview": methods.overview(run, found, planned),
         "quarters": band.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
         "acceptance": acceptance.tables_of(run, found, rate),

@@ -8,7 +8,8 @@ With another wall or diameter the stress on them stays, on their new areas, the 
 and the check of the wall have the new sizes, and the weight changes by the steel of the
 skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
 """
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 from math import inf, pi
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,7 +20,8 @@ from caisson.design import shell
 from caisson.design.suction_installation import bisect
 from caisson.units import GRAVITY
 from caisson.verdict import limits, suction_methods, theory
-from caisson.verdict.installation import NOTHING, Installation
+from caisson.verdict.installation import NOTHING, Installation, Rate
+from caisson.verdict.installation import installation_of
 from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.template import say, say_rows
@@ -69,8 +71,12 @@ class Planned:
         self.sizes = Sizes(
             float(scene["diameter_m"]), float(scene["wall_thickness_m"]), weight
         )
-        self.required = self.line(found.required)
-        parts = [float(values[-1]) for values in list(found.forces.values())[:3]]
+        # hand methods know the depth itself
+        at = np.array([depth])
+        self.there = installation_of(run, Rate(), at) if run.by_hand else None
+        self.required = self.value(lambda x: x.required)
+        last = self.there or found
+        parts = [float(values[-1]) for values in list(last.forces.values())[:3]]
         total = self.required * self.sizes.area + weight
         self.forces = [total * part / sum(parts) for part in parts]
         self._by_methods: dict[tuple[float, float], tuple[float, dict[str, float]]]
@@ -88,8 +94,11 @@ class Planned:
         rows |= np.arange(len(depth)) >= len(depth) - LEAST_ROWS
         return np.asarray(rows & (self.found.required > NOTHING))
 
-    def line(self, values: np.ndarray) -> float:
+    def value(self, of: Callable[[Installation], np.ndarray]) -> float:
         """Return a column of the installation at the depth; nan without a trend."""
+        if self.there is not None:
+            return float(of(self.there)[0])
+        values = of(self.found)
         rows = self.rows & np.isfinite(values)
         if rows.sum() < 2:
             return float("nan")
@@ -105,10 +114,10 @@ class Planned:
         new = {"diameter_m": sizes.diameter, "wall_thickness_m": sizes.wall}
         site = theory.site_of(self.run)
         site = site._replace(scene={**site.scene, **new})
-        known = suction_methods.answers_of(site, np.array([self.depth]))
-        piping = known.suctions.get(suction_methods.PIPING, np.array([np.nan]))
-        plug = {name: float(values[0]) / 1e3 for name, values in known.plug.items()}
-        self._by_methods[size] = float(piping[0]) / 1e3, plug
+        piping, every = suction_methods.limits_at(site, np.array([self.depth]))
+        plug = {name: float(values[0]) / 1e3 for name, values in every.items()}
+        least = np.nan if piping is None else float(piping[0]) / 1e3
+        self._by_methods[size] = least, plug
         return self._by_methods[size]
 
     def needs(self, sizes: Sizes) -> float:
@@ -123,12 +132,12 @@ class Planned:
     def allows(self, sizes: Sizes) -> dict[str, float]:
         """Return the limits of the suction, by their factors."""
         piping, plug = self.by_methods(sizes)
-        factors, same = self.found.factors, self.found.limits
+        factors, same = self.found.factors, (self.there or self.found).limits
         known = {limits.PIPING: piping, **plug}
         found = {name: value / factors[name] for name, value in known.items()}
         for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
             if name in same:
-                found[name] = self.line(same[name])
+                found[name] = self.value(partial(limit_in, name))
         if limits.COMPUTED in found and np.isfinite(self.piping):
             found[limits.COMPUTED] *= piping / self.piping
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
@@ -148,6 +157,11 @@ class Planned:
         length = float(self.run.scene.get("skirt_length_m") or 0)
         more = STEEL_WEIGHT * length * (sizes.tip - self.sizes.tip)
         return self.sizes.weight + more
+
+
+def limit_in(name: str, found: Installation) -> np.ndarray:
+    """Return a limit of the suction of an installation [n] (kPa)."""
+    return found.limits[name]
 
 
 def is_enough(planned: Planned, name: str, size: float) -> bool:
@@ -258,7 +272,7 @@ def skirt_of(planned: Planned) -> tuple[float, float] | None:
     found, length = planned.found, planned.run.scene.get("skirt_length_m")
     if not length or not len(found.room):
         return None
-    rise = found.factors.get(limits.LID, 1.0) * planned.line(found.heave)
+    rise = found.factors.get(limits.LID, 1.0) * planned.value(lambda x: x.heave)
     needed = planned.depth + max(rise, 0.0)
     return (needed, float(length)) if needed > float(length) else None
 
@@ -272,7 +286,9 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
     planned = Planned(run, found, target)
     if not np.isfinite(planned.required):
         return "too few numbers above"
-    if changes_between(run, float(found.depth[planned.rows][0]), target):
+    if not run.by_hand and changes_between(
+        run, float(found.depth[planned.rows][0]), target
+    ):
         return NOT_KNOWN
     return planned
 

@@ -75,7 +75,14 @@ def of_force(run: Results, found: Installation) -> str:
 
 @functools.lru_cache(maxsize=16)
 def verdict_of(run: Results) -> Verdict:
-    """Return the verdict on a run; an empty one where nothing goes in or out."""
+    """Return the verdict on a run, or on a scene by hand methods, in so many words; an
+    empty one where nothing goes in or out."""
+    found = said_of(run)
+    return found._replace(text=say("by_hand", found.text)) if run.by_hand else found
+
+
+def said_of(run: Results) -> Verdict:
+    """Return the verdict without a word of where its numbers come from."""
     if evaluation.is_pull(run):
         return Verdict(pull.sentence_of(run))
     found = outcome.whole_way(run)
@@ -94,7 +101,7 @@ def begins_at_rest(run: Results, rest: float) -> bool:
     """Return whether the resistance only builds up above a penetration by weight (m):
     that is within half a wall thickness of the start."""
     thickness = float(run.scene.get("wall_thickness_m") or 0)
-    return rest - float(run.history[DEPTH][0]) < thickness / 2
+    return not run.by_hand and rest - float(run.history[DEPTH][0]) < thickness / 2
 
 
 def rest_in_words(run: Results, rest: float) -> str:

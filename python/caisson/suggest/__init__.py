@@ -24,12 +24,13 @@ of high resistance, and so do --low and --high, with what differs from a layer, 
 
     caisson suggest --diameter 4 --skirt 2.5 --wall 20mm --weight 100kN \\
       --layer "0: Dr = 60%" --low "0: Dr = 50%" --high "0: Dr = 70%" own.prm
+
+own.html is the page of the scene before any run: what hand methods say of it.
 """
 import argparse
 import functools
 import os
 import re
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
@@ -37,15 +38,17 @@ from pathlib import Path
 from typing import Any
 
 from caisson import density_law, disk
-from caisson.band import member_of
+from caisson.band import BEST, HIGH, LOW, member_of
+from caisson.design import cone as cone_test
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
-from caisson.runner import RunError, query
+from caisson.runner import query
 from caisson.suggest import band, clay, cone, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import layers_of
+from caisson.suggest.trial import by_hand, cost_of, page_of, run_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -58,7 +61,6 @@ FACTORS_OF_STRENGTH = (0.7, 0.85, 1, 1.15, 1.3)  # and of the stiffness of clay
 VELOCITY = 0.1  # m/s
 RAMP_SHARE = 0.05  # of the way, at most, until the velocity is reached
 LEAST_RECORDS = 100
-FAILS = "the first steps of the run fail"  # of --validate
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,8 +76,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "all of it sand of this relative density, as 0.85 or 85%%"
     add("--density", type=number(""), metavar="D", help=text)
     text = (
-        "write a study, too: of angle or density, of a cone test's estimates, or with"
-        " --spread of twenty runs for P5, P50 and P95"
+        "write a study, too: of angle or density, or with --spread of twenty runs for"
+        " P5, P50 and P95"
     )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
@@ -161,12 +163,19 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
     files: list[Path] = [f for f in (options.file, options.study) if f]
+    files.append(page_of(options.file))
+    files += [cone_test.beside(options.file)] * bool(options.cpt)
     files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
         if file.exists() and not options.overwrite:
             raise SuggestError(f"{file} exists; --overwrite replaces it")
+    if options.study and options.cpt:
+        raise SuggestError(
+            "--study: low and high of a cone test are scenes, too, which"
+            f" `{run_of(options.file, [LOW, HIGH])}` runs; leave it out"
+        )
     if options.study and options.study.suffix != ".toml":
         raise SuggestError(f"--study {options.study}: its name must end with .toml")
 
@@ -261,24 +270,6 @@ def texts_of(options: argparse.Namespace) -> list[str]:
 def reached(options: argparse.Namespace, layers: Sequence[Layer]) -> list[Layer]:
     """Return the layers that the skirt reaches."""
     return [layer for layer in layers if layer.top < end_of(options)]
-
-
-def table_of_cone(options: argparse.Namespace) -> Path:
-    """Return the cone test as a table, beside the study if the file is none."""
-    if cone_file.is_plain(options.cpt, cone_options.how_of(options)):
-        return Path(options.cpt)
-    study: Path = options.study
-    return study.with_name(f"{study.stem}_cone.csv")
-
-
-def soil_study_of(options: argparse.Namespace, found: Interpretation) -> str:
-    """Return the text of a study with low, best and high estimate of a cone test."""
-    return template(HERE / "soil_study.toml.jinja").render(
-        scene=os.path.relpath(options.file, options.study.parent),
-        cone=os.path.relpath(table_of_cone(options), options.study.parent),
-        name=options.cpt.name,
-        choices=cone.choices_of(found),
-    )
 
 
 def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
@@ -399,7 +390,7 @@ def scene_of(
         smooth_tip=all(map(walls.is_clay, deep)) or options.wall_friction == 0,
         tip_friction=own_cone.FRICTION,
         default_row=sizes.DEFAULT_ROW,
-        directory=f"results/{file.stem}",
+        directory=f"{getattr(options, 'results', 'results')}/{file.stem}",
         frames=sizes.frames_of(start, end),
         **flow_of(options, layers, soil),
     )
@@ -441,39 +432,8 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
     return found
 
 
-def said_of(text: str, file: Path, copy: Path, said: str) -> str:
-    """Return what the program says of a refused scene, of which no file is left: its
-    lines in the place of their numbers."""
-    lines = text.splitlines()
-
-    def line(match: re.Match[str]) -> str:
-        return f"“{lines[int(match[1]) - 1].strip()}”"
-
-    said = re.sub(rf"(?:in )?{re.escape(str(copy))}:(\d+)", line, said)
-    return said.replace("is set in “", "is “").replace(str(copy), str(file))
-
-
-def cost_of(file: Path, text: str) -> str:
-    """Return what the program says of a scene, which is going to be this file, and of
-    its cost. Raises SuggestError where it refuses it."""
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder, file.name)
-        copy.write_text(text, encoding="utf-8")
-        try:
-            said = query([str(copy), "--validate"]).replace(str(copy), str(file))
-        except RunError as error:
-            said = said_of(text, file, copy, str(error))
-            raise SuggestError(
-                f"the program refuses the scene, which is not written:\n{said}"
-            ) from error
-    if FAILS in said:
-        raise SuggestError(f"the scene, which is not written, does not run:\n{said}")
-    return said
-
-
 def ends_of(
     options: argparse.Namespace,
-    layers: Sequence[Layer],
     known: Mapping[str, str],
     found: Interpretation | None,
 ) -> dict[str, list[Layer]]:
@@ -481,16 +441,15 @@ def ends_of(
     known: the units of entries; found: a cone test. Raises SuggestError."""
     if found is None:
         return band.of_texts(texts_of(options), known, law_of(options), options)
-    return band.of_choices(layers, cone.choices_of(found))
+    return {x: cone.layers_of(found, end_of(options), x) for x in (LOW, HIGH)}
 
 
-def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
-    """Write the scene, those of these estimates, and the study if there is to be one;
-    say what the scene will cost. Raises SuggestError, RunError, InputError or OSError.
-    """
-    check(options, estimates)
+def soil_of(
+    options: argparse.Namespace, known: Mapping[str, str]
+) -> tuple[list[Layer], Interpretation | None]:
+    """Return the layers that the mesh has, and the cone test that they are from; say
+    what is doubtful. known: the units of entries. Raises SuggestError or InputError."""
     found = None
-    known = {} if options.cpt else entries_of_layers()
     if options.cpt:
         deepest = cone.REACH * options.skirt
         found = interpretation.interpret(options.cpt, options, deepest)
@@ -505,67 +464,72 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
                 print(f"warning: layer from {layer.top:g} m: {layer.warning}")
         if options.law and not any(map(walls.is_by_density, layers)):
             raise SuggestError("--law is for sand by its density: no layer is")
-    n_layers = within_mesh(options, layers)
-    layers = layers[:n_layers]
-    if found:
-        found = replace(found, layers=found.layers[:n_layers])
-    if options.weight:
-        ends_of_run = begin_of(options), end_of(options)
-        states = clay.with_states(layers, ends_of_run[1], ends_of_run[1])
-        for words in walls.words_on_weight(
-            body_of(options), states, ends_of_run, options.weight
-        ):
-            print(f"warning: {words}")
-    texts = {options.file: scene_of(options, layers, options.file)}
-    ends = ends_of(options, layers, known, found) if estimates else {}
+    n = within_mesh(options, layers)
+    return layers[:n], found and replace(found, layers=found.layers[:n])
+
+
+def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
+    """Write the scene, those of these estimates, and the study if there is to be one;
+    say what the scene will cost. Return its page, which has that cost, and so is never
+    the same twice; "" where no hand method knows the ground. Raises SuggestError,
+    RunError, InputError or OSError."""
+    check(options, estimates)
+    known = {} if options.cpt else entries_of_layers()
+    layers, found = soil_of(options, known)
+    if words := walls.words_on_weight(
+        body_of(options), begin_of(options), options.weight
+    ):
+        print(f"warning: {words}")
+    scenes = {BEST: scene_of(options, layers, options.file)}
+    ends = ends_of(options, known, found) if estimates else {}
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
-        texts[file] = scene_of(options, soil[:n_layers], file, words)
-    costs = [cost_of(file, text) for file, text in texts.items()]
+        scenes[estimate] = scene_of(options, soil[: len(layers)], file, words)
+    texts = {member_of(options.file, x): text for x, text in scenes.items()}
+    cost = cost_of(options.file, scenes[BEST])  # alone, as it is timed
     if options.study:
         if estimates and options.spread:
             given = texts_of(options)
             deep = reached(options, layers)
             texts[options.study] = band.study_of(options, given, layers, deep, known)
         else:
-            texts[options.study] = (
-                soil_study_of(options, found) if found else study_of(options, layers)
-            )
-    if options.study and found and (table := table_of_cone(options)) != options.cpt:
-        texts[table] = cone_file.text_of(found.test)
+            texts[options.study] = study_of(options, layers)
+    if found:
+        texts[cone_test.beside(options.file)] = cone_file.text_of(found.test)
+    print(cost)
+    test = texts.get(cone_test.beside(options.file), "")
+    page = by_hand(options.file, scenes, cost, estimates, test)
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)
-    print(costs[0])
     assumed = texts[options.file].count(ASSUMPTION)
     print(f"assumed: {assumed} lines of {options.file} are marked ASSUMED: check them")
     for remark in remarks_on(options):
         print(remark)
+    return page
 
 
-def write_all(options: argparse.Namespace) -> list[str]:
-    """Write the scene with those of its band; return which estimates these are. Raises
-    SuggestError, RunError, InputError or OSError."""
+def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
+    """Write the scene with those of its band; return which estimates these are, and the
+    page. Raises SuggestError, RunError, InputError or OSError."""
     band.check(options)
     estimates = band.estimates_of(options)
-    write(options, estimates)
-    return estimates
+    return estimates, write(options, estimates)
 
 
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
-    estimates = write_all(options)
-    run, study = (
-        ("caisson run", "caisson study")
-        if INSTALLED
-        else ("scripts/run", "scripts/caisson study")
-    )
+    estimates, page = write_all(options)
+    study = "caisson study" if INSTALLED else "scripts/caisson study"
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
-    how = f"{run} --band" if estimates else run
-    print(f"written: {', '.join(map(str, files))}; next: {how} {options.file}")
+    if page:
+        files.append(disk.write(page_of(options.file), page))
+    run = run_of(options.file, estimates)
+    print(f"written: {', '.join(map(str, files))}; next: {run}")
+    way = run_of(Path(f"--error {options.error}% {options.file}"), [])
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
-        f" error, with its error bar: {run} --error {options.error}% {options.file}"
+        f" error, with its error bar: {way}"
     )
     if options.study:
         print(f"written: {options.study}; next: {study} {options.study}")

@@ -10,7 +10,6 @@ low, or high, together.
 import argparse
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import radians, tan
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from caisson import density_law
 from caisson.band import HIGH, LOW
 from caisson.design import quantity
 from caisson.suggest import clay, sand
-from caisson.suggest.entry import Entry, Layer, SuggestError
+from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import (
     ANGLES_OF_FRICTION,
     DERIVED,
@@ -318,27 +317,3 @@ def name_in(word: str, known: Mapping[str, str], law: str) -> str:
         return name_of(word, known, law)
     except SuggestError:  # an entry of another law
         return ""
-
-
-def of_choices(
-    best: Sequence[Layer], choices: Mapping[str, Mapping[str, float | str]]
-) -> dict[str, list[Layer]]:
-    """Return the layers of the low and the high estimate of a cone test. choices: the
-    entries of each of them, as in its study."""
-    found = {}
-    for estimate in SIGNS:
-        found[estimate] = [
-            replace(
-                layer, entries=[changed(e, i, choices[estimate]) for e in layer.entries]
-            )
-            for i, layer in enumerate(best, 1)
-        ]
-    return found
-
-
-def changed(entry: Entry, layer: int, values: Mapping[str, float | str]) -> Entry:
-    """Return an entry of a layer with another value, if it has one."""
-    value = values.get(f"Soil/Layer {layer}/{entry.name}")
-    if value is None:
-        return entry
-    return replace(entry, value=value if isinstance(value, str) else f"{value:g}")

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Layers of a scene, and low, best and high estimates for a study, from a cone test."""
-from typing import Any
-
 from caisson import density_law
+from caisson.band import BEST
 from caisson.design.cone_texts import SHOWN, text_of
 from caisson.units import QUARTZ_DENSITY
 from caisson.suggest import clay, sand
@@ -10,7 +9,7 @@ from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import ASSUMED
 from caisson.suggest.walls import ADHESION_OF_CLAY
 from caisson.design import correlations
-from caisson.design.cone_estimates import ENDS, K0, REFERENCE, WEIGHT, Estimates
+from caisson.design.cone_estimates import K0, REFERENCE, WEIGHT, Estimates
 from caisson.design.cone_estimates import is_answered
 from caisson.design.correlations import DENSITY, MODULUS, STRENGTH
 from caisson.design.cone_rules import GIVEN
@@ -125,10 +124,10 @@ def of_density(e: Estimates, end: str) -> dict[str, str]:
     }
 
 
-def sand_of(found: Interpretation, e: Estimates) -> list[Entry]:
+def sand_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
     """Return the entries of sand whose strength follows from its density. Relative
     density, unit weight and modulus are those of the test."""
-    values, (densest, loosest) = of_density(e, "best"), void_ratios_of(e)
+    values, (densest, loosest) = of_density(e, end), void_ratios_of(e)
     why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
     start = density_law.REFERENCE_VOID_RATIO
     known = [
@@ -162,14 +161,14 @@ def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
     return Entry("K0", text, f" # FROM CPT{within}")
 
 
-def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
+def strength_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
     """Return law, strength and stiffness of clay, and of silt below the skirt, which
     are undrained."""
     return [
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
-        Entry("Cohesion", value_of(e, STRENGTH, "best"), remark(found, e, STRENGTH)),
-        Entry("Youngs modulus", value_of(e, MODULUS, "best"), clay.MODULUS_REMARK),
+        Entry("Cohesion", value_of(e, STRENGTH, end), remark(found, e, STRENGTH)),
+        Entry("Youngs modulus", value_of(e, MODULUS, end), clay.MODULUS_REMARK),
         Entry("Poisson ratio", clay.POISSON, ASSUMPTION),
         at_rest_of(found, e),
         Entry("Friction angle of the walls", "0"),
@@ -177,47 +176,22 @@ def strength_of(found: Interpretation, e: Estimates) -> list[Entry]:
     ]
 
 
-def entries_of(found: Interpretation, e: Estimates) -> list[Entry]:
-    """Return the entries of a layer with the best estimates."""
+def entries_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
+    """Return the entries of a layer: low, best or high density or strength, and
+    stiffness, and what all have in common."""
     if e.layer.kind == SAND:
-        return sand_of(found, e)
+        return sand_of(found, e, end)
     return [
-        *strength_of(found, e),
+        *strength_of(found, e, end),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
         Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
         Entry("Solid density", f"{QUARTZ_DENSITY:g}", ASSUMPTION),
     ]
 
 
-def layers_of(found: Interpretation, end: float) -> list[Layer]:
-    """Return the layers of a scene whose skirt ends at a depth (m). Raises
-    SuggestError."""
+def layers_of(found: Interpretation, end: float, estimate: str = BEST) -> list[Layer]:
+    """Return the layers of a scene whose skirt ends at a depth (m): all low, best or
+    high together. Raises SuggestError."""
     refuse_silt(found, end)
     refuse_no_strength(found)
-    return [Layer(e.layer.top, entries_of(found, e)) for e in found.layers]
-
-
-def plain(text: str) -> float | str:
-    """Return a number, or an expression as it is."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
-def choices_of(found: Interpretation) -> dict[str, dict[str, float | str]]:
-    """Return the entries of the low, the best and the high estimate: density or
-    strength, and stiffness of all layers together."""
-    choices: dict[str, dict[str, float | str]] = {}
-    for name in ENDS:
-        entries: dict[str, Any] = {}
-        for place, e in enumerate(found.layers, 1):
-            head = f"Soil/Layer {place}"
-            if e.layer.kind == SAND:
-                values = of_density(e, name)
-            else:
-                values = {"Cohesion": value_of(e, STRENGTH, name)}
-                values["Youngs modulus"] = value_of(e, MODULUS, name)
-            entries |= {f"{head}/{k}": plain(text) for k, text in values.items()}
-        choices[name] = entries
-    return choices
+    return [Layer(e.layer.top, entries_of(found, e, estimate)) for e in found.layers]

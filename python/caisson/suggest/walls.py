@@ -1,16 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Friction and adhesion of the walls: of all sand the same friction, and where clay and
-sand lie above each other those of each layer. What the design methods say of a weight
-before the run."""
+sand lie above each other those of each layer. Whether the wall bears the weight."""
 from collections.abc import Sequence
 
-from caisson import density_law
 from caisson.design import shell
-from caisson.design.assumed_cone import AssumedCone, Sand
-from caisson.design.clay import CASES, Clay
-from caisson.design.clay import Layer as Slice
-from caisson.design.cone import Skirt
-from caisson.design.layered import Layered
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.sizes import Body
@@ -18,7 +11,6 @@ from caisson.suggest.soil import LEAST_DRAINED, NGI_ADP
 
 FRICTION, ADHESION = "Friction angle of the walls", "Adhesion factor of the walls"
 STEEL = 355e6, 210e9, 0.5  # section Design: strength, modulus (Pa), fixity over D
-SLICES = 20  # of the soil beside the skirt
 ADHESION_OF_CLAY = Entry(
     ADHESION,
     clay.ADHESION_FACTOR,
@@ -123,47 +115,12 @@ def with_walls(
     return found
 
 
-def method_of(body: Body, layers: Sequence[Layer], end: float) -> Layered | None:
-    """Return the design method for layers of sand and undrained clay down to a depth
-    (m); None where a layer has neither a density nor a friction angle."""
-    clays, sands = list[Slice](), list[Sand]()
-    for i in range(SLICES):
-        top, depth = i * end / SLICES, (i + 0.5) * end / SLICES
-        layer = [x for x in layers if x.top <= depth][-1]
-        weight, name = clay.weight_of(layer, depth), "Cohesion"
-        if layer.value("Law") == NGI_ADP:
-            name = "Active strength"
-        strength = clay.number_of(layer, name, depth) if is_clay(layer) else 0.0
-        angle = clay.number_of(layer, "Friction angle", depth) or 0.0
-        density = clay.number_of(layer, density_law.DENSITY, depth)
-        if strength is None or not (strength or angle or density is not None):
-            return None
-        factor = clay.number_of(layer, ADHESION, depth)
-        adhesion = strength * (
-            float(clay.ADHESION_FACTOR) if factor is None else factor
-        )
-        clays.append(Slice(top, weight, strength, adhesion, adhesion))
-        sands.append(Sand(top, weight, 0.5, density, angle, bool(strength)))
-    skirt = Skirt(body.diameter, body.wall, 0.0, 0.0)
-    return Layered(Clay(skirt, clays), AssumedCone(sands, end))
-
-
-def words_on_weight(
-    body: Body, layers: Sequence[Layer], ends: tuple[float, float], weight: float
-) -> list[str]:
-    """Return what the design methods say of a weight in water (N) before the run. ends:
-    depths where it begins and ends (m)."""
-    found, (begin, end) = list[str](), ends
+def words_on_weight(body: Body, begin: float, weight: float | None) -> str:
+    """Return what is wrong with a weight in water (N) where the run begins (m)."""
     wall = shell.Wall(body.diameter, body.wall, body.skirt, *STEEL)
-    if (check := shell.check_at(wall, begin, 0.0, weight)) >= 1:
-        found.append(
-            f"the wall buckles under the weight alone, by DNV-RP-C202 at {check:.2g}"
-            " times its design strength without stiffeners"
-        )
-    method = method_of(body, layers, end)
-    if method and (most := method.forces(end, CASES[1]).total) < weight:
-        found.append(
-            f"the caisson sinks to {end:g} m by its weight, {weight / 1e6:.3g} MN,"
-            f" without suction: the design methods find at most {most / 1e6:.3g} MN"
-        )
-    return found
+    if (check := shell.check_at(wall, begin, 0.0, weight or 0.0)) < 1:
+        return ""
+    return (
+        "the wall buckles under the weight alone, by DNV-RP-C202 at"
+        f" {check:.2g} times its design strength without stiffeners"
+    )

@@ -242,10 +242,10 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     found: dict[str, np.ndarray] = {}
     if "critical_gradient" in run.history:
         found[COMPUTED] = critical_by_gradient(run, at)
-    answers = suction_methods.answers_of(theory.site_of(run), at)
-    if answers.suctions:
-        found[PIPING] = answers.suctions[suction_methods.PIPING] / 1e3
-    found |= {name: values / 1e3 for name, values in answers.plug.items()}
+    piping, plug = suction_methods.limits_at(theory.site_of(run), at)
+    if piping is not None:
+        found[PIPING] = piping / 1e3
+    found |= {name: values / 1e3 for name, values in plug.items()}
     if BOILING_COLUMN in numbers:
         found[BOILING] = numbers[BOILING_COLUMN] / 1e3
     if (pump := pump_limit(run)) is not None:

@@ -258,7 +258,12 @@ def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
 def review_of(run: Results) -> tuple[str, ...]:
     """Return what the records of a run that has ended say against it; nothing of one
     by an earlier version of the program, whose run.json has that itself."""
-    if run.is_running or "tip" not in run.known or "tip_force_N" not in run.history:
+    if (
+        run.by_hand
+        or run.is_running
+        or "tip" not in run.known
+        or "tip_force_N" not in run.history
+    ):
         return ()
     return tuple(Review(run).warnings())
 

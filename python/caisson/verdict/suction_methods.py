@@ -81,6 +81,11 @@ class Answers:
     @property
     def required(self) -> list[theory.Beside]:
         """The required suctions of the methods that have any."""
+        return [method for method in self.every if method.is_known]
+
+    @property
+    def every(self) -> list[theory.Beside]:
+        """Those of all methods for suction, nan where none suffices."""
         found = self.suctions
         if not found:
             return [self.in_clay] if self.in_clay else []
@@ -94,7 +99,7 @@ class Answers:
         for method in BY_CONE:
             cases = dict(zip(ENDS, map(found.__getitem__, CONE_COLUMNS[method.key])))
             every.append(theory.Beside(method.name + mark, cases, {}, limit))
-        return [method for method in every if method.is_known]
+        return every
 
 
 def weight_of(scene: theory.Scene) -> float:
@@ -141,18 +146,21 @@ def suctions_at(
     }
 
 
-def rest_of(byrne: HoulsbyByrne, weight: float, deepest: float) -> dict[str, float]:
-    """Return the penetrations by weight that are not deeper than deepest."""
-    found = {}
-    for column in RANGE:
-        caisson, enhanced = byrne.by_name[CASES[column]]
-        try:
-            found[column] = installation.self_weight_penetration(
-                caisson, weight, enhanced, deepest
-            )
-        except ValueError:  # it sinks in deeper
-            continue
-    return found
+def rests_of(
+    method: theory.Description, site: theory.Site, deepest: float
+) -> dict[str, float]:
+    """Return the penetration by weight (m) in each case of a method, nan where it is
+    deeper than deepest."""
+    known, weight = method.of_site(site, deepest), weight_of(site.scene)
+    tops = [theory.top_of(entry) for _, entry in site.layers(deepest)]
+
+    def rest(case: str) -> float:
+        def resistance(h: float) -> float:
+            return known.forces(h, case).total
+
+        return installation.self_weight_penetration(resistance, weight, deepest, tops)
+
+    return {case: rest(case) for case in method.cases}
 
 
 def cone_method_of(
@@ -178,13 +186,7 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
         case: installation.suction_without_flow(total, weight, area)
         for case, total in answer.total.cases.items()
     }
-    fine = np.linspace(0, float(depth.max()), 200)
-    rests = {
-        case: installation.rest_without_flow(fine, total, weight)
-        for case, total in theory.answer_of(
-            theory.OF_CLAY, site, fine
-        ).total.cases.items()
-    }
+    rests = rests_of(theory.OF_CLAY, site, float(depth.max()))
     return Answers(
         depth,
         rest={case: h for case, h in rests.items() if np.isfinite(h)},
@@ -194,6 +196,22 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
         rest_by=answer.method.name,
         plug=plug,
     )
+
+
+def limits_at(
+    site: theory.Site, depth: np.ndarray
+) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
+    """Return the suction of piping by Houlsby and Byrne, None where they have none, and
+    those at which a plug of clay gives way, [n] (Pa) at embedments [n] (m): what
+    answers_of() has of them, in less time."""
+    try:
+        byrne = theory.houlsby_byrne_of(site, float(depth.max()))
+        weight_of(site.scene)
+    except theory.NotApplicable:
+        return None, theory.plug_limits(site, depth)
+    (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
+    found = [installation.piping_suction(caisson, float(h), ratio) for h in depth]
+    return np.array(found), {}
 
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
@@ -208,4 +226,6 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
     suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}
     known = [cone.profile for cone in cones.values() if isinstance(cone, ConeMethod)]
     assumed = known[0].assumed if known else ""
-    return Answers(depth, suctions, rest_of(byrne, weight, deepest), assumed=assumed)
+    rests = rests_of(theory.METHODS[0], site, deepest)
+    rest = {x: rests[CASES[x]] for x in RANGE if np.isfinite(rests[CASES[x]])}
+    return Answers(depth, suctions, rest, assumed=assumed)

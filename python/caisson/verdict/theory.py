@@ -4,6 +4,7 @@ hold, and why not where they do not.
 
 Layers that the tip does not reach do not count.
 """
+import functools
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -69,8 +70,10 @@ class Site(NamedTuple):
         ]
 
 
+@functools.lru_cache(maxsize=16)
 def site_of(run: Results) -> Site:
-    """Return the site of a run. Raises ResultsError where its cone test is wrong."""
+    """Return the site of a run, whose files are read once. Raises ResultsError where
+    its cone test is wrong."""
     test = of_run(run.directory)
     if not run.scene and run.is_running:
         return Site({}, cone=test, is_running=True)

@@ -154,7 +154,7 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
     known at all of them; None where the best run has no such value."""
     best = members[BEST]
     has_area = column != SUCTION or "diameter_m" in best.scene
-    if column not in best.history or not has_area:
+    if column not in best.history or not has_area or best.by_hand:
         return None
     values = values_of(best, column, at)
     if not np.isfinite(values).all():

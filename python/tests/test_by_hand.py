@@ -1,0 +1,402 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The page of a scene before any run, against calculations by hand."""
+import json
+import re
+import tempfile
+import unittest
+from collections.abc import Callable
+from math import atan, exp, pi, radians, tan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from synthetic import write_run
+
+from caisson.evaluation import rest_of_run
+from caisson.report import methods, page, verdict
+from caisson.results import Results, ResultsError
+from caisson.verdict import by_hand, outcome, run_review
+from caisson.verdict.installation import Rate
+
+D, T, LENGTH, END = 8.0, 0.04, 9.0, 8.0
+INNER = D - 2 * T
+AREA, TIP, WALLS = pi / 4 * INNER**2, pi * (D - T) * T, pi * (D + INNER)
+WATER = 9810.0  # N/m3
+QC = 2e6  # Pa, of the cone test
+SCENE: dict[str, Any] = {
+    "diameter_m": D,
+    "wall_thickness_m": T,
+    "skirt_length_m": LENGTH,
+    "initial_penetration_m": 0.5,
+    "inner_wall_friction_angle_deg": 24.0,
+    "outer_wall_friction_angle_deg": 24.0,
+    "inner_wall_adhesion_Pa": 0.0,
+    "outer_wall_adhesion_Pa": 0.0,
+}
+SAND: dict[str, Any] = {
+    "law": "Mohr-Coulomb",
+    "submerged_unit_weight_N_m3": 10e3,
+    "K0": 0.5,
+    "friction_angle_deg": 35.0,
+    "cohesion_Pa": 0.0,
+    "permeability_m_s": 1e-4,
+    "law_entries": [],
+}
+CLAY: dict[str, Any] = {
+    **SAND,
+    "submerged_unit_weight_N_m3": 8e3,
+    "friction_angle_deg": 0.0,
+    "cohesion_Pa": 40e3,
+    "wall_adhesion_Pa": 20e3,
+    "permeability_m_s": 1e-9,
+}
+
+
+def bisected(
+    force: Callable[..., float], weight: float, *more: float, end: float = END
+) -> float:
+    """Return the depth (m) above an end at which a force is a weight; more: of its
+    arguments."""
+    low, high = 0.0, end
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if force(middle, *more) < weight else (low, middle)
+    return low
+
+
+def in_clay(h: float, n_c: float) -> float:
+    """Return the resistance in clay alone (N)."""
+    return WALLS * 20e3 * h + TIP * (8e3 * h + n_c * 40e3)
+
+
+def by_cone(h: float, tip: float, wall: float) -> float:
+    """Return the resistance (N) by coefficients of q_c."""
+    return TIP * tip * QC + WALLS * wall * QC * h
+
+
+def senders(c: float) -> float:
+    """Return k_f of Senders & Randolph."""
+    return float(c * (1 - (INNER / D) ** 2) ** 0.3 * tan(radians(24)))
+
+
+def houlsby(h: float, k: float) -> tuple[float, float, float]:
+    """Return tip, inner and outer friction (N) by Houlsby & Byrne, with enhanced
+    stress, K tan(delta) = k and m = 1.5."""
+    stress, friction = [], []
+    for diameter, z in ((INNER, INNER / 4 / k), (D, D * (1.5**2 - 1) / 4 / k)):
+        growth = exp(h / z) - 1
+        stress.append(10e3 * z * growth)
+        friction.append(k * pi * diameter * 10e3 * z**2 * (growth - h / z))
+    n_q = exp(pi * tan(radians(35))) * tan(radians(62.5)) ** 2
+    n_gamma, (outer, inner) = 34.476, sorted(stress)
+    x = T / 2 + (inner - outer) * n_q / (4 * 10e3 * n_gamma)
+    if x < T:
+        end = inner * n_q + 10e3 * n_gamma * (T - 2 * x**2 / T)
+    else:
+        end = outer * n_q + 10e3 * T * n_gamma
+    return TIP * end, friction[0], friction[1]
+
+
+def parts_in_sand(h: float) -> np.ndarray:
+    """Return tip, inner and outer friction (N) of both cases of Houlsby & Byrne, DNV
+    and Senders & Randolph: [6, 3]."""
+    found = [houlsby(h, k) for k in (0.45, 0.8)]
+    for tip, wall in (
+        *((0.3, 0.001), (0.6, 0.003)),
+        *((0.2, senders(0.012)), (0.2, senders(0.03 / 2**0.5))),
+    ):
+        inner, outer = (wall * QC * pi * d * h for d in (INNER, D))
+        found.append((tip * QC * TIP, inner, outer))
+    return np.array(found)
+
+
+def suction_in_sand(h: float, parts: np.ndarray, weight: float) -> float:
+    """Return the suction (Pa) of which Senders & Randolph relieve tip and inner
+    friction."""
+    angle = atan(5 * (h / D) ** 0.85)
+    critical = 10e3 * h * (pi - angle * (2 - 2 / pi))
+    found = (parts.sum() - weight) / (AREA + parts[:2].sum() / critical)
+    return float(found if found < critical else (parts[2] - weight) / AREA)
+
+
+class Scene(unittest.TestCase):
+    """A scene of which the program has made a step."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+
+    def scene(
+        self, *layers: dict[str, Any], weight: float | None = 2e6, cone: bool = True
+    ) -> by_hand.ByHand:
+        """Return it with layers of soil, and a cone test of 2 MPa."""
+        first = {"cavitation_suction_Pa": 3e5, "penetration_m": 0.5, "time_s": 0.0}
+        scene: dict[str, Any] = {**SCENE, "layers": list(layers)}
+        if weight:
+            scene["submerged_weight_N"] = weight
+        warnings = [
+            {"rank": "result", "text": "no rest"},
+            {"rank": "input", "text": "x"},
+        ]
+        summary = {
+            "title": "own, on a mesh for an error of about 20 %",
+            "scene_file": "own.prm",
+            "version": "0",
+            "dealii_version": "9",
+            "cells": 1,
+            "steps": 1,
+            "status": "finished",
+            "entries": {"Time/End penetration": str(END), "Time/End time": "1e-9"},
+            "results": {"warnings": warnings},
+            "scene": scene,
+            "tip": {"width_m": T, "initial_penetration_m": 0.5},
+        }
+        write_run(self.path, {k: np.array([v]) for k, v in first.items()}, summary)
+        if cone:
+            rows = "depth_m,qc_MPa\n0,2\n20,2\n"
+            (self.path / "cone.csv").write_text(rows, encoding="utf-8")
+        facts = {"scene_file": "own.prm", "cost": "about 2 min", "next": "run own.prm"}
+        return by_hand.band_of({"best": by_hand.ByHand(self.path, facts=facts)})
+
+    def rest_of(self, run: Results) -> float:
+        """Return its penetration by weight (m)."""
+        rest = rest_of_run(run.history)
+        assert rest is not None
+        return rest
+
+    def text(self, run: Results) -> str:
+        """Return the words and numbers of its page."""
+        found = page.html(run, Rate()).partition('<script type="application/json"')[0]
+        found = re.sub(r"<style>.*?</style>", "", found, flags=re.S)
+        return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", found))
+
+    def row(self, run: Results, begin: str) -> list[str]:
+        """Return the cells of a row of the table of methods."""
+        found = outcome.whole_way(run)
+        assert found is not None
+        rows = methods.overview(run, found, END)["rows"]
+        return next(row[1:] for row in rows if row[0].startswith(begin))
+
+
+class Clay(Scene):
+    """Uniform clay."""
+
+    def test_forces_and_suction(self) -> None:
+        """Strip and circle: N_c of 7.5 and 9; the best estimate has 8.25."""
+        run, at = self.scene(CLAY), np.array([2.0, 5.0, 8.0])
+        for (estimate, member), n_c in zip(run.estimates.items(), (7.5, 8.25, 9.0)):
+            assert member.by_hand is not None
+            found = member.by_hand(at)
+            for h, force, s in zip(
+                at, found["total_force_N"], found["required_suction_Pa"]
+            ):
+                expected = in_clay(h, n_c)
+                self.assertAlmostEqual(force / expected, 1, places=9, msg=estimate)
+                self.assertAlmostEqual(s / ((expected - 2e6) / AREA), 1, places=9)
+            rest = bisected(in_clay, 2e6, n_c)
+            self.assertAlmostEqual(self.rest_of(member), rest, places=5)
+
+    def test_page(self) -> None:
+        """Its numbers are those of a calculation by hand."""
+        run = self.scene(CLAY)
+        text, rest = self.text(run), bisected(in_clay, 2e6, 8.25)
+        self.assertIn(f"Self-weight penetration {rest:.2f} m", text)
+        needs = (in_clay(8, 8.25) - 2e6) / AREA / 1e3
+        self.assertIn("By hand methods, not computed: feasible to 8 m", text)
+        self.assertIn(f"suction up to {needs:.3g} kPa", text)
+        adhesion = 4 / INNER * 20e3 * 8
+        reverse = (6 * (1 + 0.2 * 8 / D) * 40e3 + adhesion) / 1.5 / 1e3
+        self.assertRegex(
+            text, rf"reverse bearing of the plug, factor 1.5.*? {reverse:.0f} "
+        )
+        boils = (3e5 + WATER * (8 - 0.5)) / 1e3
+        self.assertRegex(text, rf"water boils .*? {boils:.0f} ")
+        heave = TIP / AREA * (0.5 * rest + (8 - rest))
+        self.assertIn(f"heave of the plug {heave:.2f} m", text)
+        self.assertIn(f"Room below the lid {LENGTH - 8 - heave:.2f} m", text)
+        self.assertIn("Nothing is computed yet", text)
+        self.assertIn("It takes about 2 min: run own.prm", text)
+        for words in ("Status:", "Error bar not known", "Pictures", "of the run (kN)"):
+            self.assertNotIn(words, text)
+
+    def test_table_of_methods(self) -> None:
+        """Low to high; DNV from the cone stands beside them."""
+        run = self.scene(CLAY)
+        ends = [in_clay(8, n_c) for n_c in (7.5, 9.0)]
+        rests = [bisected(in_clay, 2e6, n_c) for n_c in (9.0, 7.5)]
+        rest, force, plain, needs = self.row(run, "Strength of clay")
+        self.assertEqual(force, " to ".join(f"{x / 1e3:.0f}" for x in ends))
+        suctions = [f"{(x - 2e6) / AREA / 1e3:.3g}" for x in ends]
+        self.assertEqual((plain, needs), (" to ".join(suctions),) * 2)
+        self.assertEqual(rest, " to ".join(f"{x:.3g}" for x in rests))
+        _, force, _, needs = self.row(run, "DNV *")
+        ends = [by_cone(8, 0.4, 0.03), by_cone(8, 0.6, 0.05)]
+        self.assertEqual(force, " to ".join(f"{x / 1e3:.0f}" for x in ends))
+        self.assertEqual(needs, "-")
+
+
+class Sand(Scene):
+    """Uniform sand, with a cone test."""
+
+    def test_forces_and_suction(self) -> None:
+        """The mean of all cases of three methods, the least and the most of them."""
+        run, at = self.scene(SAND, weight=1.25e6), np.array([2.0, 5.0, 8.0])
+        for estimate, member in run.estimates.items():
+            assert member.by_hand is not None
+
+            def parts(h: float, which: str = estimate) -> np.ndarray:
+                every = parts_in_sand(h)
+                cases = every[::2] if which == "low" else every[1::2]
+                total = cases.sum(axis=1)
+                if which == "best":
+                    return np.asarray(every.mean(axis=0))
+                return np.asarray(
+                    cases[total.argmin() if which == "low" else total.argmax()]
+                )
+
+            found = member.by_hand(at)
+            for i, h in enumerate(at):
+                expected = parts(h)
+                for column, part in zip(by_hand.COLUMNS, expected):
+                    self.assertAlmostEqual(found[column][i] / part, 1, places=3)
+                s = suction_in_sand(h, expected, 1.25e6)
+                if s > 0:
+                    ratio = found["required_suction_Pa"][i] / s
+                    self.assertAlmostEqual(ratio, 1, places=3, msg=estimate)
+            rest = bisected(lambda h: float(parts(h).sum()), 1.25e6)
+            self.assertAlmostEqual(self.rest_of(member), rest, places=3)
+
+    def test_flow(self) -> None:
+        """k (1 - a) s A / (gamma_w h), and s over gamma' h / (1 - a)."""
+        run = self.scene(SAND, weight=1.25e6)
+        found = run.columns_at(np.array([4.0]))
+        left = 1 - (0.45 - 0.36 * (1 - exp(-0.5 / 0.48)))
+        s = found["required_suction_Pa"][0]
+        flow = 1e-4 * left * s * AREA / (WATER * 4)
+        self.assertAlmostEqual(found["seepage_flow_m3_s"][0] / flow, 1, places=3)
+        share = s / (10e3 * 4 / left)
+        name = "exit_gradient_over_critical"
+        self.assertAlmostEqual(found[name][0] / share, 1, places=9)
+
+    def test_table_of_methods(self) -> None:
+        """DNV and the unified method without flow, too: (R - W) / A."""
+        run = self.scene(SAND, weight=1.25e6)
+        area_ratio = (1 - (INNER / D) ** 2) ** 0.3
+        walls = [area_ratio * tan(radians(x)) / 44 for x in (27.1, 32.1)]
+        for name, ends in {
+            "DNV": [by_cone(8, 0.3, 0.001), by_cone(8, 0.6, 0.003)],
+            "ISO 19901-4 (unified), for piles *": [by_cone(8, 0.5, x) for x in walls],
+        }.items():
+            _, force, plain, needs = self.row(run, name)
+            self.assertEqual(force, " to ".join(f"{x / 1e3:.0f}" for x in ends), name)
+            suctions = [f"{(x - 1.25e6) / AREA / 1e3:.3g}" for x in ends]
+            self.assertEqual(plain, " to ".join(suctions), name)
+            self.assertNotEqual(needs, "-")
+        mean = parts_in_sand(8).mean(axis=0).sum()
+        self.assertEqual(self.row(run, "best")[1], f"{mean / 1e3:.0f}")
+
+    def test_what_does_not_count(self) -> None:
+        """A test that ends above the tip, and an assumed cone beside a model."""
+        run = self.scene(SAND, weight=1.25e6)
+        rows = "depth_m,qc_MPa\n0,2\n6,2\n"
+        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
+        run = by_hand.ByHand(run.directory)
+        names = [x.name for x in by_hand.answers_of(run.site, np.array([8.0]))]
+        self.assertEqual(names, ["Houlsby & Byrne (2005)"])
+        run = self.scene(SAND, cone=False)
+        (self.path / "cone.csv").unlink()
+        run = by_hand.ByHand(run.directory)
+        for depth, n in ((0.5, 1), (8.0, 3)):
+            found = by_hand.answers_of(run.site, np.array([depth]))
+            self.assertEqual(len(found), n)
+
+
+class Layered(Scene):
+    """3 m of sand over clay."""
+
+    def test_forces_and_suction(self) -> None:
+        """Friction of both, the tip in the layer where it is, and no flow."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+        ends = ((0.3, 0.001, 7.5), (0.6, 0.003, 9.0))
+
+        def force(h: float, tip: float, wall: float, n_c: float) -> float:
+            walls = WALLS * (wall * QC * min(h, 3) + 20e3 * max(h - 3, 0))
+            in_it = 10e3 * 3 + 8e3 * (h - 3) + n_c * 40e3
+            return walls + TIP * (tip * QC if h <= 3 else in_it)
+
+        def best(h: float) -> float:
+            return sum(force(h, *end) for end in ends) / 2
+
+        at = np.array([2.0, 5.0, 8.0])
+        found = run.columns_at(at)
+        for i, h in enumerate(at):
+            self.assertAlmostEqual(found["total_force_N"][i] / best(h), 1, places=9)
+            s = (best(h) - 1.2e6) / AREA
+            self.assertAlmostEqual(found["required_suction_Pa"][i] / s, 1, places=9)
+        self.assertAlmostEqual(
+            self.rest_of(run), bisected(best, 1.2e6, end=3.0), places=5
+        )
+        self.assertIn("DNV in sand", self.text(run))
+
+
+class Page(Scene):
+    """What it is not."""
+
+    def test_records(self) -> None:
+        """What the one step has said and set is not on it, and no verdict.json."""
+        run = self.scene(SAND)
+        self.assertEqual(run_review.warnings_of(run)["result"], [])
+        self.assertEqual(run_review.warnings_of(run)["input"], ["x"])
+        self.assertNotIn("Time/End time", self.text(run))
+        self.assertIn("Computed: nothing yet", self.text(run))
+        self.assertFalse((self.path / verdict.NAME).exists())
+
+    def test_six_curves(self) -> None:
+        """At first sight, with what is behind the end of these."""
+        html = page.html(self.scene(SAND), Rate())
+        data = re.search(
+            r'<script type="application/json" id="data">(.*?)</script>', html
+        )
+        assert data is not None
+        for figure in json.loads(data[1])["figures"]:
+            seen = [c for c in figure["curves"] if not c.get("hidden")]
+            seen = [c for c in seen if "not feasible" not in c["label"]]
+            self.assertLessEqual(len(seen), 6)
+            self.assertIn("best by hand", " ".join(c["label"] for c in seen))
+
+    def test_jacked(self) -> None:
+        run = self.scene(CLAY, weight=None)
+        force = in_clay(8, 8.25) / 1e6
+        said = f"By hand methods, not computed: jacked to 8 m: {force:.3g} MN"
+        self.assertIn(said, self.text(run))
+
+    def test_where_it_ends(self) -> None:
+        """A light caisson meets piping; what would help is known at the planned depth,
+        though another layer begins above it."""
+        layer = {**SAND, "top_depth_m": 7.0, "K0": 0.6}
+        run = self.scene(SAND, layer, weight=1e5)
+        text = self.text(run)
+        self.assertRegex(text, r"By hand methods, not computed: feasible to \S+ m")
+        self.assertNotIn("another layer begins", text)
+        self.assertRegex(text, r"About \S+ kN of weight in all")
+
+    def test_unknown_ground(self) -> None:
+        """What no method knows is named."""
+        run = self.scene({**SAND, "law": "Modified Cam clay"})
+        with self.assertRaisesRegex(ResultsError, "layer 1 is Modified Cam clay"):
+            page.html(run, Rate())
+
+    def test_run_that_has_hardly_begun(self) -> None:
+        """Its page is that of the scene, until the caisson goes down."""
+        run = self.scene(CLAY)
+        summary = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        summary |= {"status": "running", "progress": {"fraction_done": 0.001}}
+        (self.path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+        text = self.text(Results(run.directory))
+        self.assertIn("By hand methods, not computed: feasible to 8 m", text)
+        self.assertNotIn("Nothing is computed yet", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
