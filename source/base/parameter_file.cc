@@ -90,8 +90,6 @@ namespace CaissonMPM
       {"Soil/Layer k/Softening shape factor", no_softening},
       {"Soil/Layer k/Internal length", no_length},
       {"Soil/Layer k/Internal velocity", no_length},
-      {"Soil/Layer k/Volume in shear",
-       "Remove it: a user material changes the volume as its state says."},
       {"Soil/Layer k/Slope of compression", of_gone_law},
       {"Soil/Layer k/Slope of swelling", of_gone_law},
       {"Soil/Layer k/Slope of the critical state", of_gone_law},

@@ -255,9 +255,10 @@ namespace CaissonMPM
       return;
     auto &of_law = reinterpret_cast<Kernels::UserMaterial::Parameters &>(
       material.parameters);
-    of_law.modulus = umat_stiffness.p_wave_modulus;
-    of_law.update  = &UmatLaw::call;
-    of_law.law     = umat.get();
+    of_law.modulus           = umat_stiffness.p_wave_modulus;
+    of_law.update            = &UmatLaw::call;
+    of_law.law               = umat.get();
+    material.volume_in_shear = volume_in_shear;
   }
 
   StateVariables

@@ -90,6 +90,17 @@ namespace CaissonMPM
       "The first STATEV have these values at the start, and the others 0; a "
       "subroutine SDVINI in the library may change them for each point.",
       Patterns::List(Patterns::Double(), 0, 1000));
+    add_choice(
+      *this,
+      "Volume in shear",
+      soil.volume_in_shear,
+      {{"by state", Kernels::VolumeInShear::by_state},
+       {"kept", Kernels::VolumeInShear::kept},
+       {"gained", Kernels::VolumeInShear::gained}},
+      "",
+      "Plastic shear of a user material changes the volume as the state says, "
+      "not at all, or only makes it larger: this decides how a cell takes the "
+      "pressure of its points.");
     user_entries.assign(entries().begin() + n_before, entries().end());
   }
 

@@ -57,6 +57,7 @@ namespace CaissonMPM
     // of a user material; of other laws none
     std::shared_ptr<UmatLaw> umat;
     UmatStiffness            umat_stiffness; // at the start
+    Kernels::VolumeInShear   volume_in_shear = Kernels::VolumeInShear::by_state;
 
     /** "Soil/Layer k", with k from 1. */
     std::string
