@@ -181,7 +181,7 @@ def use_of(run: Results) -> str:
     level = run.entry("Water/Level")
     if not caisson_of(run) or not level:
         return ""
-    has_weight = run.scene.get("submerged_weight_N") is not None
+    has_weight = bool(run.scene.get("submerged_weight_N"))
     depth = run.history["penetration_m"]
     if is_sealed(run) or depth[-1] < depth[0]:
         lid = "sealed lid" if is_sealed(run) else "open lid"
