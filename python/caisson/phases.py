@@ -36,7 +36,7 @@ KNOWN = (
     f"{REST} TIME (such as 30 d, 12 h, 5 min), {DRAINED}, {UNDRAINED}, {PUSH} and"
     f" {RETRIEVAL}; all but a rest may end with to DEPTH, in m"
 )
-LID = "Water/Suction control"
+LID, WEIGHT = "Water/Suction control", "Rigid body/Submerged weight"
 TABLES = ("Rigid body/Velocity table", "Water/Suction table", "Water/Pumped flow table")
 
 
@@ -191,7 +191,7 @@ def water_of(phase: Phase, level: str, scaling: float) -> Entries:
     kept = {"Time/Inertia tolerance": "none", "Time/Mass scaling": f"{scaling:.6g}"}
     sealed = {LID: "sealed", **kept}
     compression, automatic = "Water/Time compression", {LID: "automatic"}
-    vented = {LID: "table", "Water/Suction table": "0:0"}
+    vented = {LID: "table", "Water/Suction table": "0:0", WEIGHT: "0"}
     has_flow = level in ("seepage", "coupled")  # where automatic is a required suction
     of_word: dict[str, Entries] = {
         REST: sealed | {compression: f"{max(phase.time / REST_RUN, 1):.6g}"},

@@ -93,7 +93,8 @@ class Chain:
         for number in range(1, len(self.phases) + 2):
             if number > 1:
                 member = self.phase(number, member.run.directory)
-            is_new = compute(member, self.again, not was_made, reporting)
+            again = self.again or was_made
+            is_new = compute(member, again, not was_made, reporting)
             was_made = was_made or is_new
             if number == 1:
                 disk.write(list_path, ", ".join(x.text for x in self.phases) + "\n")
