@@ -166,6 +166,7 @@ class Run:
 
     RECORD = "run_key.json"
     CHECKPOINT = "checkpoint.info"
+    BESIDE = ("Output/Directory", "Installation/Phases")  # the result is the same
 
     def __init__(
         self,
@@ -230,7 +231,7 @@ class Run:
     def key(self) -> str:
         """A hash of what the result depends on. Raises RunError where the program
         refuses the input."""
-        entries = {k: v for k, v in self.in_effect.items() if k != "Output/Directory"}
+        entries = {k: v for k, v in self.in_effect.items() if k not in self.BESIDE}
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The layers of a report, a row for each, and the page of a caisson that is pulled."""
+import json
 import unittest
 from typing import Any
 
@@ -154,13 +155,26 @@ class Pulled(WithPage):
         self.assertIn(
             "not the capacity). The submerged weight of 1 MN adds to it", said
         )
-        self.assertIn("This is no design pull-out capacity.", said)
+        self.assertIn("This is no design pull-out capacity: no factor is in it.", said)
 
     def test_open_lid(self) -> None:
         """Drained there is no water, and no mechanism beyond friction."""
         run = self.leave_pull(sealed=False)
         names = [name for name, _, _ in pull.cards_of(run)]
         self.assertEqual(names, ["Of which friction outside"])
+        self.assertEqual(layers.use_of(run), "drained, open lid, pulled up")
+
+    def test_clay_is_not_drained(self) -> None:
+        """Neither by an open lid, nor where water pushes the caisson out."""
+        self.leave_pull(sealed=False)
+        known: dict[str, Any] = json.loads((self.path / "run.json").read_text("utf-8"))
+        known["scene"]["layers"] = clay()
+        (self.path / "run.json").write_text(json.dumps(known), encoding="utf-8")
+        run = Results(self.path)
+        words = "undrained clay (total stress), "
+        self.assertEqual(layers.use_of(run), words + "open lid, pulled up")
+        run.history["suction_Pa"] = np.full(51, -1e4)
+        self.assertEqual(layers.use_of(run), words + "pushed out by water")
 
     def test_begins_where_it_is_pulled(self) -> None:
         """Behind the unloading of 1000 kN, over the first 20 mm."""

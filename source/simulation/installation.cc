@@ -32,6 +32,16 @@ namespace CaissonMPM
       "checkpoint of another run, which has this output directory. Its motion "
       "may be another one; time and sums begin at 0. With an empty one, the "
       "run begins with soil in its initial stress.");
+    add_parameter(
+      "Phases",
+      phases,
+      "",
+      "What follows this run, separated by commas, as in rest 30 d, retrieval "
+      "to 0.5 m: caisson run computes each of them from where the one before "
+      "ended. The program alone does not. They are rest TIME, pull drained, "
+      "pull undrained, push and retrieval; all but a rest may end with to "
+      "DEPTH.")
+      .influence = Influence::none;
   }
 
   void

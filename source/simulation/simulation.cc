@@ -567,6 +567,8 @@ namespace CaissonMPM
           recorder.message("continuing at a penetration of " +
                            to_text(body.penetration(), 6) + " m" +
                            installation.changes_in_words());
+        if (installation.has_phases())
+          recorder.message(Installation::who_computes_phases());
         recorder.write_frame();
         recorder.record();
       }

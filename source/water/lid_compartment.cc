@@ -126,8 +126,8 @@ namespace CaissonMPM
                      {-force_on_body + flow.tip_resistance,
                       scene.body.submerged_weight(),
                       plug_.area() + flow.tip_area,
-                      seepage_volume + plug_.area() * (motion.travel() +
-                                                       recent_heave.value()),
+                      seepage_volume +
+                        plug_.area() * (motion.travel() + recent_heave.value()),
                       motion.velocity() < 0.});
   }
 

@@ -40,6 +40,21 @@ namespace CaissonMPM
       return directory_;
     }
 
+    /** Whether phases are to follow this run, which others compute. */
+    bool
+    has_phases() const
+    {
+      return !phases.empty();
+    }
+
+    /** Return who computes them, in words. */
+    static std::string
+    who_computes_phases()
+    {
+      return "Installation/Phases: caisson run computes them after this run, "
+             "the program alone does not";
+    }
+
     /** Read the checkpoint. @p physics are the entries of this run. Throws
      * BadInput where there is no checkpoint, this run would overwrite it in
      * @p output_directory, or entries differ that decide the state. */
@@ -69,7 +84,7 @@ namespace CaissonMPM
     void
     refuse_changes() const;
 
-    std::string               directory_;
+    std::string               directory_, phases;
     std::optional<Checkpoint> checkpoint_;
     std::vector<ChangedEntry> changes;
   };

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs a scene on as many ranks as pay, or on those of --ranks, and draws its pictures.
 
+A scene with Installation/Phases is run with all of them, each in a folder inside the
+one of the scene; those that are complete are not repeated.
 With --error it first finds the coarsest mesh whose error bar is small enough, and runs
 the scene on that one.
 With --band it runs FILE_low.prm and FILE_high.prm, too, at the same time, one core
@@ -22,7 +24,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from caisson import needed, ranks
-from caisson.commands import run_band
+from caisson.commands import run_band, run_phases
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
     RunError,
@@ -70,18 +72,27 @@ def take_own(options: argparse.Namespace) -> None:
     _, options.arguments = parser.parse_known_args(options.arguments, options)
 
 
-def places_of(arguments: list[str]) -> tuple[Path | None, Path | None]:
-    """Return where the program will write, and the file that stops it. None where there
-    is none: of bad input, which it explains itself, or of options that only print."""
+def entries_of(arguments: list[str]) -> dict[str, str]:
+    """Return all entries in effect; none of bad input, which the program explains
+    itself, or of options that only print."""
+    try:
+        return read_parameters(arguments)
+    except (RunError, KeyError):
+        return {}
+
+
+def places_of(
+    arguments: list[str], entries: dict[str, str]
+) -> tuple[Path | None, Path | None]:
+    """Return where the program will write, and the file that stops it; None where there
+    is none. entries: those in effect."""
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--output-directory", type=Path)
     chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
-    try:
-        entries = read_parameters(arguments)
-        directory = chosen or Path(entries["Output/Directory"])
-        name = entries["Run control/Stop file"]
-    except (RunError, KeyError):
+    if not entries:
         return chosen, None
+    directory = chosen or Path(entries["Output/Directory"])
+    name = entries["Run control/Stop file"]
     return directory, directory / name if name else None
 
 
@@ -149,6 +160,17 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     ]
     for line in filter(None, lines if in_full else []):
         print(line)
+
+
+def try_to_draw(directory: Path, error_bar: Path | None) -> None:
+    """Draw a run, and say so where that fails."""
+    try:
+        draw(directory, error_bar)
+    except Exception as error:  # whatever it is, the run was good
+        print(
+            f"run: no pictures of {directory}: {error}; the results are not affected",
+            file=sys.stderr,
+        )
 
 
 @contextlib.contextmanager
@@ -249,7 +271,9 @@ def main(options: argparse.Namespace) -> int:
                 " scene has one core"
             )
         return run_band.main(arguments, draw, reporting)
-    directory, stop_file = places_of(arguments)
+    entries = entries_of(arguments)
+    directory, stop_file = places_of(arguments, entries)
+    has_phases = bool(run_phases.asked_for(arguments, entries))
     error_bar = None
     if options.error and directory:  # else the program says what is wrong
         try:
@@ -259,6 +283,9 @@ def main(options: argparse.Namespace) -> int:
             raise RunError(str(error)) from error
     if complaint := needed.complaint():
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
+    if has_phases:
+        chain = run_phases.Chain(arguments, entries, options.ranks, error_bar)
+        return chain.main(try_to_draw, reporting)
     n_ranks = options.ranks or choose_ranks(arguments)
     begin = time.time()
     command = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
@@ -277,12 +304,5 @@ def main(options: argparse.Namespace) -> int:
     history = directory / "history.csv" if directory else None
     # only what this run wrote is drawn: --validate, say, writes nothing
     if directory and history and history.exists() and history.stat().st_mtime >= begin:
-        try:
-            draw(directory, error_bar)
-        except Exception as error:  # whatever it is, the run was good
-            print(
-                f"run: no pictures of {directory}: {error}; the results are not"
-                " affected",
-                file=sys.stderr,
-            )
+        try_to_draw(directory, error_bar)
     return status

@@ -14,17 +14,23 @@ from caisson.runner import Run, RunError, Status
 from caisson.runs import How, StudyRun, make, survey
 
 
-def options_of(words: Sequence[str]) -> argparse.Namespace:
-    """Return the options of the program that a band takes. Raises RunError."""
+def options_of(
+    words: Sequence[str], taker: str = "--band", further: Sequence[str] = ()
+) -> argparse.Namespace:
+    """Return the options of the program that a band takes, or another one that makes
+    several runs, with further ones. Raises RunError."""
     parser = argparse.ArgumentParser(add_help=False)
+    for name in further:
+        parser.add_argument(name)
     for name in ("--restart", "--overwrite"):
         parser.add_argument(name, action="store_true")
     parser.add_argument("--set", action="append", default=[])
     found, other = parser.parse_known_args(words)
     if other:
         raise RunError(
-            f"--band takes --set, --restart and --overwrite, not {other[0]}. Write the"
-            " entries that you change into the scenes"
+            f"{taker} takes {', '.join([*further, '--set'])}, --restart and"
+            f" --overwrite, not {other[0]}. Write the entries that you change into the"
+            " scenes"
         )
     return found
 

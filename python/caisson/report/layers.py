@@ -14,6 +14,7 @@ from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
 from caisson.evaluation import is_sealed
 from caisson.report.scene import readable, scale_of
 from caisson.results import Results
+from caisson.verdict.retrieval import is_retrieval
 
 NAMES = tomllib.loads(Path(__file__).with_name("layers.toml").read_text("utf-8"))
 FIRST = ("submerged_unit_weight_N_m3", "K0", "relative_density")
@@ -180,12 +181,16 @@ def use_of(run: Results) -> str:
     level = run.entry("Water/Level")
     if not caisson_of(run) or not level:
         return ""
-    has_weight = run.scene.get("submerged_weight_N") is not None
+    has_weight = bool(run.scene.get("submerged_weight_N"))
     depth = run.history["penetration_m"]
     if is_sealed(run) or depth[-1] < depth[0]:
         lid = "sealed lid" if is_sealed(run) else "open lid"
-        return f"{level}, {lid}{', pulled up' if depth[-1] < depth[0] else ''}"
-    how = "by weight and suction" if has_weight else "jacked"
+        if depth[-1] < depth[0] and is_retrieval(run):
+            how = "pushed out by water"
+        else:
+            how = f"{lid}{', pulled up' if depth[-1] < depth[0] else ''}"
+    else:
+        how = "by weight and suction" if has_weight else "jacked"
     return f"{drainage_of_run(run) or level}, {how}"
 
 

@@ -16,7 +16,7 @@ from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, ResultsError
 from caisson.report import acceptance, band, content, layers, methods, pull, remedies
-from caisson.report import scene, sketch, trace, verdict
+from caisson.report import phases, scene, sketch, trace, verdict
 from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate
 
@@ -27,7 +27,7 @@ MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
     " next overview factors remedies warnings computed tables has_bar has_suction"
     " averaged rate pictures units methods remarks entries defaults facts acceptance"
-    " signed".split(),
+    " signed phases".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -231,6 +231,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
         "warnings": run_review.warnings_of(run, end),
         "entries": scene.entries_of(run),
         "defaults": scene.defaults_of(run),
+        "phases": phases.rows_of(run),
     }
 
 

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What follows an installation: the phases of the entry Installation/Phases, such as
+"rest 30 d, retrieval to 0.5 m", and the entries of the run that computes each of them.
+
+Each phase begins where the one before it ended. All but a rest move the body by a share
+of the velocity of the scene (SHARES, as the scenes of prm do), with damping. Without a
+depth they move it by 3 % of its diameter: friction needs 1 % (API RP 2GEO), and a plug
+beneath a sealed lid about 2 % (prm/tension.prm).
+
+A rest takes 5 s in the run, as that of prm/tension_after.prm, in which the water flows
+as in its time (Water/Time compression).
+"""
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from caisson.results import Results
+from caisson.runner import Entries, RunError
+
+ENTRY = "Installation/Phases"
+LIST = "phases.txt"  # in the folder of the scene: the phases that were asked for last
+REST, DRAINED, UNDRAINED = "rest", "pull drained", "pull undrained"
+PUSH, RETRIEVAL = "push", "retrieval"
+# of the velocity of the scene, positive downward
+SHARES = {REST: 0.0, DRAINED: -0.2, UNDRAINED: -0.05, PUSH: 0.2, RETRIEVAL: -0.2}
+LEAST_WAY, LARGEST_OVERSHOOT = 0.03, 1e-3  # of the diameter
+REST_RUN, LARGEST_SCALING = 5.0, 100.0  # s; as in prm/tension.prm
+RECORDS = 200  # rows of a phase
+UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
+FORM = re.compile(
+    rf"(?:{REST} +(?P<time>\d+\.?\d*) *(?P<unit>{'|'.join(UNITS)})"
+    rf"|(?P<word>{'|'.join(list(SHARES)[1:])})(?: +to +(?P<depth>\d+\.?\d*)(?: *m)?)?)"
+)
+KNOWN = (
+    f"{REST} TIME (such as 30 d, 12 h, 5 min), {DRAINED}, {UNDRAINED}, {PUSH} and"
+    f" {RETRIEVAL}; all but a rest may end with to DEPTH, in m"
+)
+LID, WEIGHT = "Water/Suction control", "Rigid body/Submerged weight"
+TABLES = ("Rigid body/Velocity table", "Water/Suction table", "Water/Pumped flow table")
+
+
+class Phase(NamedTuple):
+    """A phase: as it was written, its word, its depth (m), None where none is given,
+    and of a rest the time (s)."""
+
+    text: str
+    word: str
+    depth: float | None = None
+    time: float = 0.0
+
+
+def phase_of(text: str) -> Phase:
+    """Return the phase that a text names. Raises RunError."""
+    text = " ".join(text.split())
+    if not (found := FORM.fullmatch(text)):
+        raise RunError(f"{ENTRY}: {text!r} is no phase; known are {KNOWN}")
+    if not found["word"]:
+        return Phase(text, REST, None, float(found["time"]) * UNITS[found["unit"]])
+    depth = None if found["depth"] is None else float(found["depth"])
+    return Phase(text, found["word"], depth)
+
+
+def phases_in(text: str) -> list[Phase]:
+    """Return the phases of a list with commas. Raises RunError."""
+    return [phase_of(part) for part in text.split(",") if part.strip()]
+
+
+def folder_of(phase: Phase, number: int) -> str:
+    """Return the folder of a phase, in that of the scene, which is phase 1."""
+    return f"phase_{number}_{phase.word.replace(' ', '_')}"
+
+
+def title_of(title: str, phases: Sequence[Phase]) -> str:
+    """Return the title of the last of some phases. It names those before it, too, so
+    that a run is another one where they have changed."""
+    return f"{title}: {'; '.join(phase.text for phase in phases)}"
+
+
+def undrained_layers(entries: Mapping[str, str]) -> list[str]:
+    """Return the numbers of the layers whose strength is undrained."""
+    found = []
+    for i in range(1, int(entries.get("Soil/Number of layers", "1")) + 1):
+        layer = f"Soil/Layer {i}"
+        law = entries.get(f"{layer}/Law", "")
+        friction = entries.get(f"{layer}/Friction angle", "")
+        if law == "NGI-ADP" or (law == "Mohr-Coulomb" and friction == "0"):
+            found.append(str(i))
+    return found
+
+
+def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
+    """Return why a scene with these entries cannot have a phase, and what to do;
+    nothing where it can."""
+    level = entries.get("Water/Level", "drained")
+    is_coupled = level == "coupled"
+    if phase.word == REST and level == "undrained":
+        return (
+            "excess pressure does not flow with Water/Level = undrained; set Level ="
+            " coupled, and a permeability of each layer"
+        )
+    if phase.word == REST and not is_coupled:
+        return (
+            f"nothing changes in a rest with Water/Level = {level}, which has no excess"
+            " pressure that dissipates; leave it out and give Design/Factor on set-up,"
+            " or set Level = coupled"
+        )
+    if phase.word == REST and not phase.time:
+        return "give a time above 0"
+    if phase.word == UNDRAINED and not is_coupled:
+        return (
+            f"its sealed lid needs water that flows, and Water/Level is {level}; set"
+            " Level = coupled, and a permeability of each layer"
+        )
+    if phase.word == DRAINED and (layers := undrained_layers(entries)):
+        return (
+            f"the strength of layer {layers[0]} is undrained, and so is each pull; give"
+            " it a law of effective stress, such as modified Cam clay, or write"
+            f" {RETRIEVAL}"
+        )
+    return ""
+
+
+def refuse_faults(phases: Sequence[Phase], entries: Mapping[str, str]) -> None:
+    """Refuse phases that the scene cannot have, before anything is run; entries: those
+    in effect. Raises RunError."""
+    end = entries.get("Time/End penetration", "never")
+    at = None if end == "never" else float(end)
+    for phase in phases:
+        if fault := fault_of(phase, entries):
+            raise RunError(f"{ENTRY}: {phase.text}: {fault}")
+        if phase.depth is not None and at is not None:
+            if (phase.depth - at) * SHARES[phase.word] <= 0:
+                where = "below" if phase.word == PUSH else "above"
+                raise RunError(
+                    f"{ENTRY}: {phase.text}: give a depth {where} {at:g} m, where the"
+                    " phase before it ends"
+                )
+        if phase.word != REST and at is not None:
+            at = end_of(phase, at, entries)
+
+
+def end_of(phase: Phase, at: float, entries: Mapping[str, str]) -> float:
+    """Return the depth (m) at which a phase that begins at a depth (m) ends."""
+    if phase.depth is not None or phase.word == REST:
+        return at if phase.depth is None else phase.depth
+    way = LEAST_WAY * float(entries["Rigid body/Outer diameter"])
+    return max(round(at + (way if phase.word == PUSH else -way), 6), 0.0)
+
+
+def velocity_of(phases: Sequence[Phase], entries: Mapping[str, str]) -> float:
+    """Return the velocity (m/s) of the last of some phases, or that of the scene."""
+    share = SHARES[phases[-1].word] if phases else 1.0
+    return share * abs(float(entries["Rigid body/Velocity"]))
+
+
+def ramp_of(phases: Sequence[Phase], entries: Mapping[str, str]) -> float:
+    """Return the time (s) in which the last of some phases comes to its velocity, so
+    short that the body hardly goes on as before. A rest has none: a plug that still
+    moves would tear at the lid."""
+    if phases[-1].word == REST:
+        return 0.0
+    before = abs(velocity_of(phases[:-1], entries))
+    way = LARGEST_OVERSHOOT * float(entries["Rigid body/Outer diameter"])
+    return min(1.0, 2 * way / before) if before else 1.0
+
+
+def motion_of(
+    phases: Sequence[Phase], at: float, entries: Mapping[str, str]
+) -> Entries:
+    """Return the entries of how the body moves in the last of some phases, and where
+    its run ends. at: where it begins (m)."""
+    velocity, end = velocity_of(phases, entries), end_of(phases[-1], at, entries)
+    seconds = abs(end - at) / abs(velocity) if velocity else REST_RUN
+    return {
+        "Rigid body/Motion": "prescribed",
+        "Rigid body/Velocity": f"{velocity:.6g}",
+        "Rigid body/Ramp time": f"{ramp_of(phases, entries):.3g}",
+        "Method/Local damping": 0.4,
+        "Time/End penetration": end if velocity else "never",
+        "Time/End time": "never" if velocity else REST_RUN,
+        "Output/Record interval": f"{seconds / RECORDS:.3g}",
+    }
+
+
+def water_of(phase: Phase, level: str, scaling: float) -> Entries:
+    """Return the entries of water and lid, of a scene with a Water/Level. scaling: the
+    largest one of the mass in the run before, which a motion against a sealed lid
+    keeps, as far as it may."""
+    scaling = min(scaling, LARGEST_SCALING)
+    kept = {"Time/Inertia tolerance": "none", "Time/Mass scaling": f"{scaling:.6g}"}
+    sealed = {LID: "sealed", **kept}
+    compression, automatic = "Water/Time compression", {LID: "automatic"}
+    vented = {LID: "table", "Water/Suction table": "0:0", WEIGHT: "0"}
+    has_flow = level in ("seepage", "coupled")  # where automatic is a required suction
+    of_word: dict[str, Entries] = {
+        REST: sealed | {compression: f"{max(phase.time / REST_RUN, 1):.6g}"},
+        DRAINED: {"Water/Level": "drained", **automatic},
+        UNDRAINED: sealed | {compression: "1"},
+        PUSH: vented if has_flow else automatic,
+        RETRIEVAL: {LID: "required"},
+    }
+    return of_word[phase.word]
+
+
+def entries_of(
+    phases: Sequence[Phase], before: Path, entries: Mapping[str, str], title: str
+) -> Entries:
+    """Return what the last of some phases sets beside the scene with entries in effect.
+    before: the folder of the run where it begins. Raises ResultsError."""
+    run, phase = Results(before), phases[-1]
+    at = float(run.history["penetration_m"][-1])
+    scaling = max(run.summary.get("mass_scaling") or [1.0])
+    return {
+        "Title": title_of(title, phases),
+        ENTRY: "",
+        "Installation/Directory": before,
+        "Output/Frame interval": "never",
+        "Output/Frame penetrations": "",
+        **{name: "" for name in TABLES if entries.get(name)},
+        **motion_of(phases, at, entries),
+        **water_of(phase, entries.get("Water/Level", "drained"), scaling),
+    }

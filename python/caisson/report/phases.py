@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What follows an installation, on the page of its scene: a row for each phase."""
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from caisson import disk, phases
+from caisson.disk import InputError
+from caisson.phases import ENTRY, LIST, REST
+from caisson.report import verdict
+from caisson.results import Results
+from caisson.template import say
+
+SENTENCES = Path(__file__).with_name("phases.jinja")
+PRESSURES = [f"pore_pressure_{end}_Pa" for end in ("smallest", "largest")]
+
+
+class Row(NamedTuple):
+    """A phase, what it came to in a sentence, and the folder of its page in that of the
+    scene, "" where there is none yet."""
+
+    text: str
+    said: str
+    folder: str
+
+
+def asked_of(run: Results) -> str:
+    """Return the phases that were asked for last."""
+    path = run.directory / LIST
+    return disk.read_text(path, InputError) if path.is_file() else run.entry(ENTRY)
+
+
+def pressures_of(run: Results) -> list[float]:
+    """Return the smallest and the largest excess pressure at the end of a run (Pa)."""
+    return [float(run.history.get(name, np.zeros(1))[-1]) for name in PRESSURES]
+
+
+def said_of(run: Results, before: Results, is_rest: bool) -> str:
+    """Return what a phase came to, after another run; of one that failed, goes on, or
+    was stopped, only that."""
+    if failure := run.known.get("failure"):
+        return say(SENTENCES, "of_phase", f"failed: {failure}")
+    if run.is_running or run.known.get("status") != "finished":
+        return say(SENTENCES, "of_phase", "")
+    if not is_rest:
+        return say(SENTENCES, "of_phase", verdict.verdict_of(run).text or "finished")
+    return say(SENTENCES, "rested", run.shown, *map(pressures_of, (before, run)))
+
+
+def row_of(
+    of_phase: Results, before: Results, title: str, part: list[phases.Phase]
+) -> Row:
+    """Return the row of the last of some phases, after another run, of a scene with a
+    title. A folder with the results of other phases does not count."""
+    text = part[-1].text
+    if of_phase.known.get("title") != phases.title_of(title, part):
+        return Row(text, say(SENTENCES, "not_run"), "")
+    said = said_of(of_phase, before, part[-1].word == REST)
+    return Row(text, said, of_phase.directory.name)
+
+
+def rows_of(run: Results) -> list[Row]:
+    """Return a row for each phase; none of a scene without. Raises InputError."""
+    every = phases.phases_in(asked_of(run))
+    title = run.known.get("title") or Path(str(run.known.get("scene_file"))).stem
+    names = (phases.folder_of(phase, i) for i, phase in enumerate(every, 2))
+    runs = [run, *(Results(run.directory / name) for name in names)]
+    pairs = enumerate(zip(runs[1:], runs), 1)
+    return [row_of(*pair, title, every[:n]) for n, pair in pairs]

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Words of Installation/Phases, the entries of their runs, and their rows on a page."""
+import html
+import unittest
+
+from test_report import SUMMARY, WithPage, leave_run
+
+import caisson.report as report
+from caisson import phases
+from caisson.commands.run_phases import asked_for
+from caisson.report.phases import rows_of
+from caisson.results import Results
+from caisson.runner import RunError
+
+COUPLED = {
+    "Water/Level": "coupled",
+    "Time/End penetration": "2",
+    "Rigid body/Outer diameter": "6",
+    "Rigid body/Velocity": "0.1",
+}
+CLAY = {"Soil/Layer 1/Law": "Mohr-Coulomb", "Soil/Layer 1/Friction angle": "0"}
+
+
+class Words(unittest.TestCase):
+    """What a user writes."""
+
+    def test_list(self) -> None:
+        """Each word is known, and blanks do not matter."""
+        text = "rest  30 d, pull undrained, retrieval to 0.5 m, push to .9"
+        with self.assertRaisesRegex(RunError, "'push to .9' is no phase; known are"):
+            phases.phases_in(text)
+        found = phases.phases_in(text.replace(" .9", " 0.9"))
+        self.assertEqual(
+            [(x.word, x.depth, x.time) for x in found],
+            [
+                ("rest", None, 30 * 86400),
+                ("pull undrained", None, 0),
+                ("retrieval", 0.5, 0),
+                ("push", 0.9, 0),
+            ],
+        )
+        self.assertEqual(phases.folder_of(found[1], 3), "phase_3_pull_undrained")
+        self.assertEqual(phases.phases_in(""), [])
+
+    def test_bad_words(self) -> None:
+        """One line lists the known ones."""
+        for text in ("pull", "rest", "rest 30", "rest 3 d to 1 m", "push to", "grout"):
+            with self.assertRaises(RunError) as caught:
+                phases.phases_in(f"retrieval, {text}")
+            said = str(caught.exception)
+            self.assertIn(f"{text!r} is no phase; known are rest TIME", said)
+            self.assertNotIn("\n", said)
+
+    def refusal(self, text: str, **entries: str) -> str:
+        """Return why a scene cannot have phases."""
+        every = COUPLED | {k.replace("_", "/"): v for k, v in entries.items()}
+        with self.assertRaises(RunError) as caught:
+            asked_for([], every | {phases.ENTRY: text})
+        return str(caught.exception)
+
+    def test_what_a_scene_cannot_have(self) -> None:
+        """Each is refused before a run, with what to do instead."""
+        said = self.refusal("rest 30 d", Water_Level="seepage")
+        self.assertIn("leave it out and give Design/Factor on set-up", said)
+        said = self.refusal("rest 30 d", Water_Level="undrained")
+        self.assertIn("does not flow", said)
+        said = self.refusal("rest 0 d")
+        self.assertIn("give a time above 0", said)
+        said = self.refusal("pull undrained", Water_Level="drained")
+        self.assertIn("set Level = coupled", said)
+        said = self.refusal("retrieval, push to 1.5")
+        self.assertIn("push to 1.5: give a depth below 1.82 m", said)
+        self.assertIn("above 2 m", self.refusal("retrieval to 2 m"))
+        with self.assertRaisesRegex(RunError, "strength of layer 1 is undrained"):
+            phases.refuse_faults(phases.phases_in("pull drained"), COUPLED | CLAY)
+        self.assertEqual(asked_for(["--validate"], {phases.ENTRY: "push"}), [])
+
+
+class Page(WithPage):
+    """The rows on the page of a scene, and the runs that follow it."""
+
+    def test_entries(self) -> None:
+        """A rise of 0.18 m of 6 m at a fifth of the velocity, from the last row; the
+        water of a rest flows for 30 d in 5 s."""
+        leave_run(self.path, {**SUMMARY, "mass_scaling": [2.0, 500.0]})
+        part = phases.phases_in("rest 30 d, retrieval")
+        known = COUPLED | {"Rigid body/Velocity table": "0:0.1"}
+        found = phases.entries_of(part, self.path, known, "mine")
+        self.assertEqual(found["Title"], "mine: rest 30 d; retrieval")
+        self.assertEqual(found["Time/End penetration"], 4.32)
+        self.assertEqual(found["Rigid body/Velocity"], "-0.02")
+        self.assertEqual(found["Rigid body/Velocity table"], "")
+        self.assertEqual(found["Water/Suction control"], "required")
+        self.assertNotIn("Time/Mass scaling", found)
+        found = phases.entries_of(part[:1], self.path, known, "mine")
+        self.assertEqual(found["Water/Time compression"], "518400")
+        self.assertEqual(found["Time/Mass scaling"], "100")
+        self.assertEqual(found["Time/End time"], 5.0)
+
+    def leave_phase(self, name: str, title: str) -> None:
+        """Leave a phase that has ended, with its page."""
+        path = self.path / name
+        leave_run(path, {**SUMMARY, "title": title})
+        report.write(path)
+
+    def test_rows(self) -> None:
+        """One that has ended, with its page, and those of other phases that do not
+        count; the last list counts."""
+        entries = {phases.ENTRY: "push, retrieval"}
+        leave_run(self.path, {**SUMMARY, "entries": entries})
+        title = str(SUMMARY["title"])
+        self.leave_phase("phase_2_push", f"{title}: push")
+        self.leave_phase("phase_3_retrieval", f"{title}: rest 3 d; retrieval")
+        push, retrieval = rows_of(Results(self.path))
+        self.assertEqual(push.folder, "phase_2_push")
+        self.assertIn("Feasible to", push.said)
+        self.assertEqual(retrieval.said, "not run yet: caisson run computes it")
+        page = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
+        self.assertTrue('<a href="phase_2_push/report.html">push</a>' in page)
+        self.assertTrue("not run yet" in page)
+        (self.path / phases.LIST).write_text("push\n", encoding="utf-8")
+        self.assertEqual([row.text for row in rows_of(Results(self.path))], ["push"])
+
+
+if __name__ == "__main__":
+    unittest.main()

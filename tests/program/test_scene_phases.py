@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""An installation and what follows it as one scene: Installation/Phases."""
+import html
+import json
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, caisson, history, scene
+from program import set_options, summary
+from test_undrained_suction import TOTAL_STRESS
+
+from caisson import phases, report
+from caisson.results import Results
+
+SHORT: Entries = {
+    **TOTAL_STRESS,
+    "Water/Suction control": "automatic",
+    "Time/End penetration": 0.53,
+    "Output/Record interval": 0.02,
+}
+FOLDER = "phase_2_retrieval"
+
+
+def draw(directory: Path, *_: object) -> None:
+    """Write the page without pictures."""
+    (directory / "forces.png").touch()
+    report.write(directory)
+
+
+@mock.patch("caisson.commands.run.draw", draw)
+class Phases(ProgramTest):
+    """A caisson that is jacked into clay by 3 cm, and pushed out again by water."""
+
+    def run_phases(self, status: int, path: Path, *words: str, **more: str) -> str:
+        """Run the scene and its phases; return what is said."""
+        entries = {**SHORT, phases.ENTRY: "retrieval to 0.51 m", **more}
+        call = ["run", scene("jack"), "--output-directory", path]
+        done = caisson(*call, *set_options(entries), *words)
+        text = done.stdout + done.stderr
+        self.assertEqual(done.returncode, status, text)
+        return text
+
+    def test_retrieval(self) -> None:
+        """It begins where the installation ended, and a repeated command keeps both.
+        Another depth is another phase, after the same installation. One that was
+        stopped goes on."""
+        path = self.directory()
+        self.run_phases(SUCCESS, path)
+        rows = history(path / FOLDER)
+        self.assertAlmostEqual(rows[0]["penetration_m"], 0.53, delta=1e-4)
+        self.assertAlmostEqual(rows[-1]["penetration_m"], 0.51, delta=1e-4)
+        self.assertLess(rows[-1]["suction_Pa"], -1e3)
+        page = html.unescape((path / "report.html").read_text(encoding="utf-8"))
+        self.assertTrue(f'<a href="{FOLDER}/report.html">retrieval to 0.51 m' in page)
+        # it goes on by 4 mm before it turns
+        self.assertTrue("Retrieved from 0.54 m to 0.51 m by an overpressure" in page)
+        own = html.unescape((path / FOLDER / "report.html").read_text(encoding="utf-8"))
+        self.assertTrue("undrained clay (total stress), pushed out by water" in own)
+        self.assertFalse(">drained, open lid" in own)
+
+        times = [summary(x)["written"] for x in (path, path / FOLDER)]
+        text = self.run_phases(SUCCESS, path)
+        self.assertEqual(text.count("complete, and not repeated"), 2)
+        again = [summary(x)["written"] for x in (path, path / FOLDER)]
+        self.assertEqual(again, times)
+
+        text = self.run_phases(SUCCESS, path, **{phases.ENTRY: "retrieval to 0.52"})
+        self.assertEqual(text.count("complete, and not repeated"), 1)
+        self.assertEqual(summary(path)["written"], times[0])
+        end = Results(path / FOLDER).history["penetration_m"][-1]
+        self.assertAlmostEqual(end, 0.52, delta=1e-4)
+
+        record = path / FOLDER / "run_key.json"
+        before = json.loads(record.read_text(encoding="utf-8"))
+        record.unlink()  # as of a run that was stopped
+        text = self.run_phases(SUCCESS, path, **{phases.ENTRY: "retrieval to 0.52"})
+        self.assertIn(f"{FOLDER}: goes on from its checkpoint", text)
+        after = json.loads(record.read_text(encoding="utf-8"))
+        self.assertEqual(after["key"], before["key"])
+
+    def test_refused_before_a_run(self) -> None:
+        """One line, and no folder."""
+        path = self.directory()
+        for words, said in {
+            "retrieval, pul": "'pul' is no phase; known are",
+            "rest 30 d": "leave it out",
+            "pull drained": "strength of layer 1 is undrained",
+        }.items():
+            text = self.run_phases(BAD_INPUT, path, **{phases.ENTRY: words})
+            self.assertIn(said, text)
+            self.assertEqual(len(text.strip().splitlines()), 1, text)
+        self.assertFalse(path.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
