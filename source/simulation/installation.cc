@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/installation.h>
 
 #include <algorithm>
@@ -116,6 +117,19 @@ namespace CaissonMPM
   Installation::water_level() const
   {
     return value_of("Water/Level", checkpoint_->fingerprint());
+  }
+
+  std::vector<std::string>
+  Installation::messages(const double penetration) const
+  {
+    std::vector<std::string> texts;
+    if (is_given())
+      texts.push_back("continuing at a penetration of " +
+                      to_text(penetration, 6) + " m" + changes_in_words());
+    if (!phases.empty())
+      texts.emplace_back("Installation/Phases: caisson run computes them after "
+                         "this run, the program alone does not");
+    return texts;
   }
 
   std::string

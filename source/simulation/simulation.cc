@@ -563,12 +563,9 @@ namespace CaissonMPM
     recorder.print_header(input);
     if (!is_restart)
       {
-        if (installation.is_given())
-          recorder.message("continuing at a penetration of " +
-                           to_text(body.penetration(), 6) + " m" +
-                           installation.changes_in_words());
-        if (installation.has_phases())
-          recorder.message(Installation::who_computes_phases());
+        for (const std::string &text :
+             installation.messages(body.penetration()))
+          recorder.message(text);
         recorder.write_frame();
         recorder.record();
       }

@@ -84,6 +84,7 @@ class Options(ProgramTest):
             ("density and stress", ["set Law =", "NGI-ADP"]),
             ("tension", ["See also Water/Suction control.", "Tension cut-off ="]),
             ("sealed", ["set Suction control ="]),
+            ("pull", ["See also Water/Suction control.", "set Phases ="]),
             ("Trapped", ["delays", "pump takes it"]),
         ):
             self.assert_words(words, self.run_program(SUCCESS, "--explain", word))
@@ -92,7 +93,6 @@ class Options(ProgramTest):
             ("cavitation", "Water depth"),
             ("suA", "Active strength"),
             ("sD/suA", "Direct shear strength ratio"),
-            ("pull", "Suction control"),
         ):
             said = self.run_program(BAD_INPUT, "--explain", word)
             self.assert_words(["Did you mean", entry], said)

@@ -9,6 +9,7 @@ GROUPS: Groups = {
     "tests": {
         "test-parts": (f"{THIS}.parts", "run all parts of the test, as scripts/test"),
         "faults": (f"{THIS}.faults", "try to break the program"),
+        "mutate": (f"{THIS}.mutate", "try whether the tests notice wrong expressions"),
         "sanitize": (f"{THIS}.shell", "build with sanitizers and run the tests there"),
         "cross-arm": (f"{THIS}.shell", "run the tests of the kernels as for ARM"),
         "bare-debian": (

@@ -40,21 +40,6 @@ namespace CaissonMPM
       return directory_;
     }
 
-    /** Whether phases are to follow this run, which others compute. */
-    bool
-    has_phases() const
-    {
-      return !phases.empty();
-    }
-
-    /** Return who computes them, in words. */
-    static std::string
-    who_computes_phases()
-    {
-      return "Installation/Phases: caisson run computes them after this run, "
-             "the program alone does not";
-    }
-
     /** Read the checkpoint. @p physics are the entries of this run. Throws
      * BadInput where there is no checkpoint, this run would overwrite it in
      * @p output_directory, or entries differ that decide the state. */
@@ -76,11 +61,15 @@ namespace CaissonMPM
     std::string
     water_level() const;
 
-    /** Return which entries differ, and their values, in words. */
+    /** Return from what @p penetration the run goes on, with which changes, and who
+     * computes the phases that follow it, in words. Units: m. */
+    std::vector<std::string>
+    messages(const double penetration) const;
+
+  private:
     std::string
     changes_in_words() const;
 
-  private:
     void
     refuse_changes() const;
 
