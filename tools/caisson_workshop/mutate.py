@@ -88,6 +88,9 @@ def copy_sources(mutants: Sequence[Mutant], copy: Path) -> None:
             if mutant.is_cpp and mutant.file == name:
                 text = mutant.applied_to(text.decode()).encode()
         texts[copy / name] = text
+    for path in copy.glob("[!.b]*/**/*"):  # what was there before; not the build
+        if path.is_file() and path not in texts:
+            path.unlink()
     for path, text in texts.items():
         if not path.is_file() or path.read_bytes() != text:
             path.parent.mkdir(parents=True, exist_ok=True)
