@@ -84,6 +84,7 @@ class Rows(WithRun):
         self.assertAlmostEqual(seal.allowed, 10.44, delta=0.1)
         self.assertAlmostEqual(seal.critical, 9000 / 9810, delta=1e-3)
         self.says("not given: Design/Suction at the start")
+        self.says("at the allowed one, the mean exit gradient is 0.46")
         run, found = self.run_of(Factor_on_piping="2", Suction_at_the_start="5e3")
         seal = acceptance.seal_of(run, found)
         assert seal is not None
@@ -197,15 +198,15 @@ class Rows(WithRun):
         self.assertTrue("a default and no design basis" in page)
         self.assertTrue("plug failure 1.5 suction of reverse bearing" in page)
         given = {"Factor_on_piping": "1.6", "Factor_on_pump": "1"}
-        run, _ = self.run_of(**given, Source_of_factors="Basis B, 2026")
-        rows = {row[0][0]: row for row in shown.factors_of(run)["rows"]}
+        known = self.run_of(**given, Source_of_factors="Basis B, 2026")
+        rows = {row[0][0]: row for row in shown.factors_of(*known)["rows"]}
         self.assertEqual(rows["piping"][1][0], "1.6")
         self.assertEqual(rows["piping"][3][0], "Basis B, 2026")
         self.assertEqual(rows["pump"][3][0], "Basis B, 2026")
         self.assertIn("default", rows["plug lift"][3][0])
         self.assertFalse("no design basis" in self.words())
-        run, _ = self.run_of(Factor_on_piping="1")
-        rows = {row[0][0]: row for row in shown.factors_of(run)["rows"]}
+        known = self.run_of(Factor_on_piping="1")
+        rows = {row[0][0]: row for row in shown.factors_of(*known)["rows"]}
         self.assertIn("not given: Design/Source of factors", rows["piping"][3][0])
 
     def test_page(self) -> None:

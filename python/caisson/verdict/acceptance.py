@@ -74,12 +74,11 @@ def seal_of(run: Results, found: Installation) -> Seal | None:
         return None
     end = min(FURTHER * found.rest, float(found.depth[-1]))
     depth = np.union1d(np.linspace(end / ROWS, end, ROWS), found.rest)
-    answers = suction_methods.answers_of(theory.site_of(run), depth)
-    if not answers.suctions:
+    piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
+    at_rest = depth == found.rest
+    if piping is None or not np.isfinite(piping[at_rest]).all():
         return None
-    piping = answers.suctions[suction_methods.PIPING]
-    allowed = piping / found.factors[limits.PIPING]
-    applied, at_rest = given(run, START), depth == found.rest
+    allowed, applied = piping / found.factors[limits.PIPING], given(run, START)
     suction = applied or float(allowed[at_rest][0])
     a = factor_of(run, found.rest)
     gradient = sealing.exit_gradient(suction, found.rest, a)
