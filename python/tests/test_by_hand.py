@@ -379,6 +379,15 @@ class Layered(Scene):
         run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
         self.assertIn("Seal", self.text(run))
 
+    def test_pump(self) -> None:
+        """The card has the largest flow, in sand, and that at the largest suction."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        words = " ".join(self.text(run).split())
+        self.assertRegex(words, r"m³/h at 3.00 m and .*against 9.4 kPa, of which")
+        self.assertRegex(
+            words, r"; 50.3 m³/h at 8.00 m, against the largest suction, 1"
+        )
+
     def test_basis_of_piping(self) -> None:
         """That a factor on piping is missing counts where water flows."""
         words = "a default and no design basis"

@@ -70,7 +70,10 @@ def factors_of(run: Results, found: Installation) -> dict[str, Any]:
     is_default = factors[limits.PIPING] == 1 and limits.PIPING not in given
     has_piping = not {limits.PIPING, limits.COMPUTED}.isdisjoint(found.limits)
     heads = ["factor on", "value", "what it acts on", "source"]
-    return {**table(heads, rows), "note": say("no_basis") if is_default and has_piping else ""}
+    return {
+        **table(heads, rows),
+        "note": say("no_basis") if is_default and has_piping else "",
+    }
 
 
 def tables_of(run: Results, found: Installation, rate: Rate) -> dict[str, Any]:

@@ -235,8 +235,8 @@ def limits_at(
     site: theory.Site, depth: np.ndarray
 ) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
     """Return the suction of piping by Houlsby and Byrne, nan below the first clay, None
-    where they have none, and those at which a plug of clay gives way, [n] (Pa) at embedments [n] (m): what
-    answers_of() has of them, in less time."""
+    where they have none, and those at which a plug of clay gives way, [n] (Pa) at
+    embedments [n] (m): what answers_of() has of them, in less time."""
     try:
         byrne = theory.houlsby_byrne_of(site, float(depth.max()))
         weight_of(site.scene)
