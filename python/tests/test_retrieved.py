@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A retrieval by overpressure, by numbers worked out by hand."""
+import unittest
+
+import numpy as np
+
+from caisson.report import pull
+from caisson.shown import USUAL
+from caisson.verdict.retrieval import Retrieval
+
+
+def said(found: Retrieval) -> str:
+    """Return what a page says of a retrieval."""
+    return pull.say(pull.SENTENCES, "retrieved", USUAL, found, 14.0, None)
+
+
+class Crane(unittest.TestCase):
+    """What a crane has to take, over all of the way."""
+
+    def test_most(self) -> None:
+        """On 15 m2, (190 - 76) kPa are 1.71 MN at 14 m. At 2 m the share of what is
+        allowed is larger, and (55 - 12) kPa are only 645 kN."""
+        limits = {"plug pushed out": np.array([12e3, 76e3])}
+        needs = np.array([55e3, 190e3])
+        found = Retrieval(np.array([2.0, 14.0]), needs, limits, 15.0)
+        self.assertEqual(found.worst, 1)
+        self.assertIn("at 14 m the ground and the wall bear 76 kPa", said(found))
+        self.assertIn("a crane has to take 1.71 MN", said(found))
+
+    def test_water_alone(self) -> None:
+        """The largest share, not the largest overpressure; none of 0 / 0."""
+        limits = {"plug pushed out": np.array([0.0, 50e3, 300e3])}
+        needs = np.array([0.0, 40e3, 190e3])
+        found = Retrieval(np.array([0.0, 2.0, 14.0]), needs, limits, 15.0)
+        self.assertIn("at most 80 % of what the ground", said(found))
+
+
+if __name__ == "__main__":
+    unittest.main()
