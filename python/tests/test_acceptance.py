@@ -11,7 +11,7 @@ import caisson.report as report
 from caisson.design import buckets, sealing
 from caisson.report import acceptance as shown
 from caisson.results import Results
-from caisson.verdict import acceptance, disturbed, outcome
+from caisson.verdict import acceptance, disturbed, limits, outcome
 from caisson.verdict.installation import Installation, Rate
 
 SKIRT = {**SCENE, "skirt_length_m": 7.0}
@@ -142,7 +142,7 @@ class Rows(WithRun):
         self.says("normal stress 0.5 (inside) and 2 (outside) times")
 
     def test_load(self) -> None:
-        """Suction is nearest to what is allowed at 4.5 m: 30 kPa on the lid, 1 MN + 30
+        """Suction is nearest to buckling at 4.5 m: 30 kPa on the lid, 1 MN + 30
         * 77.29 = 3319 kN on the wall. The frame at 4 m has 2 * 5 z and 3 kPa outside
         and 0.5 * 5 z inside, 10.5 kPa at 1 m, 14.5 less than its suction of 25 kPa: at
         a quarter of 4.5 m remain 15.5 kPa."""
@@ -159,6 +159,20 @@ class Rows(WithRun):
         self.assertAlmostEqual(along["1/4"][1], 15.5, delta=0.1)
         self.assertAlmostEqual(along["mudline"][1], 30, delta=0.1)
         self.says("pressures, from the frame at 4 m in wall_pressure.csv")
+
+    def test_load_where_it_buckles(self) -> None:
+        """Where the wall is nearest to buckling, not where the plug is nearest to its
+        failure."""
+        run, found = self.run_of()
+        write_columns(self.path / "wall.csv", wall_rows(4.0, 3e3))
+        found.required = np.linspace(0, 30, len(found.depth))
+        found.limits = {limits.REVERSE_BEARING: np.linspace(60, 31, len(found.depth))}
+        found.limits[limits.SHELL] = np.full(len(found.depth), 60.0)
+        found.limits[limits.SHELL][1] = 1.2 * found.required[1]
+        load = acceptance.load_of(Results(self.path), found)
+        assert load is not None
+        self.assertAlmostEqual(load.depth, found.depth[1])
+        self.says("nearest to that which buckles the wall")
 
     def test_load_between_frames(self) -> None:
         """-2 and -4 kPa at the tip at 1 and 3 m: -2.5 at 1.5 m."""
