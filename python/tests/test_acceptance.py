@@ -293,7 +293,7 @@ class Levelness(WithRun):
         self.assertAlmostEqual(level.differential[0], 8.59, delta=0.05)
         self.assertEqual(level.differential[1], 4.5)
         self.assertAlmostEqual(level.tilt[0], 2.87, delta=0.03)
-        self.says("tilt it by up to 2.9° at 4.5 m (allowed: 1°)")
+        self.says("tilt it by up to 2.9° at 4.5 m, more than the allowed 1°")
         self.run_of(**given)
         self.says("not given: Design/Spread of buckets, nor runs of low and high")
         self.run_of(**given, Spread_of_buckets="0.1, 0.2")
