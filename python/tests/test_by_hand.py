@@ -453,6 +453,21 @@ class Page(Scene):
         self.assertIn("By hand methods, not computed: feasible to 8 m", text)
         self.assertNotIn("Nothing is computed yet", text)
 
+    def test_run_after_an_installation(self) -> None:
+        """A run that goes up, or on from another one, is no installation."""
+        run = self.scene(CLAY)
+        summary = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        summary |= {"status": "running", "progress": {"fraction_done": 0.5}}
+        for entry, value in (
+            ("Rigid body/Velocity", "-0.02"),
+            ("Installation/Directory", "results/before"),
+        ):
+            summary["entries"] = {entry: value, "Time/End penetration": "8"}
+            (self.path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+            text = self.text(Results(run.directory))
+            self.assertNotIn("By hand methods", text)
+            self.assertIn("50 % done", text)
+
 
 if __name__ == "__main__":
     unittest.main()

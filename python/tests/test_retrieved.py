@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A retrieval by overpressure, by numbers worked out by hand."""
 import unittest
+from types import SimpleNamespace
+from typing import Any
+from unittest import mock
 
 import numpy as np
 
+from caisson import curves
 from caisson.report import pull
 from caisson.shown import USUAL
 from caisson.verdict.retrieval import Retrieval
@@ -33,6 +37,23 @@ class Crane(unittest.TestCase):
         needs = np.array([0.0, 40e3, 190e3])
         found = Retrieval(np.array([0.0, 2.0, 14.0]), needs, limits, 15.0)
         self.assertIn("at most 80 % of what the ground", said(found))
+
+
+class Cards(unittest.TestCase):
+    """What bears the largest pull."""
+
+    def test_water(self) -> None:
+        """It bears a part of a pull on a sealed lid. That which pushes a body out bears
+        nothing."""
+        forces = ("outer_friction_N", "inner_friction_N", "tip_N", "water_N")
+        most = dict.fromkeys(forces, 1e6)
+        run: Any = SimpleNamespace(shown=USUAL, history={curves.WITH_WATER: 0})
+        for is_retrieval, number in ((False, 2), (True, 1)):
+            with (
+                mock.patch.object(pull, "largest_pull", return_value=most),
+                mock.patch.object(pull, "is_retrieval", return_value=is_retrieval),
+            ):
+                self.assertEqual(len(pull.cards_of(run)), number)
 
 
 if __name__ == "__main__":

@@ -160,10 +160,19 @@ def render(
     )
 
 
+def is_installation(run: Results) -> bool:
+    """Return whether a scene pushes its body down from the mudline: it does not follow
+    an installation, as a pull and a retrieval do, and does not move up."""
+    moves_up = run.entry("Rigid body/Velocity").strip().startswith("-")
+    return not run.entry("Installation/Directory").strip() and not moves_up
+
+
 def not_begun(run: Results) -> Results:
     """Return a run or, as long as it has not begun its way down, what hand methods say
-    of its scene."""
+    of its scene, of an installation."""
     if run.by_hand or not run.is_running or not run.scene or outcome.whole_way(run):
+        return run
+    if not is_installation(run):
         return run
     try:
         hand = by_hand.band_of({BEST: by_hand.ByHand(run.directory)})

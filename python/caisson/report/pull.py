@@ -13,7 +13,7 @@ from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson.template import say, say_rows
 from caisson.verdict.outcome import results_of
-from caisson.verdict.retrieval import retrieval_of
+from caisson.verdict.retrieval import is_retrieval, retrieval_of
 
 SENTENCES = Path(__file__).with_name("verdict.jinja")
 PULL, WATER = "pull", "water beneath lid and tip"
@@ -25,10 +25,12 @@ def largest_pull(run: Results) -> Mapping[str, Any]:
 
 
 def cards_of(run: Results) -> list[list[str]]:
-    """Return (name, value, remark) of what bears the largest pull; nothing without."""
+    """Return (name, value, remark) of what bears the largest pull; nothing without. The
+    water that pushes a body out bears nothing of it."""
     if not (most := largest_pull(run)):
         return []
-    what = run.shown, most, curves.WITH_WATER in run.history
+    has_water = curves.WITH_WATER in run.history and not is_retrieval(run)
+    what = run.shown, most, has_water
     return say_rows(SENTENCES, "pull_cards", *what, cells=3)
 
 
