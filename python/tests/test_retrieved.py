@@ -39,6 +39,21 @@ class Crane(unittest.TestCase):
         self.assertIn("at most 80 % of what the ground", said(found))
 
 
+class Depths(unittest.TestCase):
+    """The table of the way up."""
+
+    def test_rows(self) -> None:
+        """From the deepest place: 190 kPa, of which the plug bears 76; the rest on 15
+        m2 is for a crane."""
+        limits = {"plug pushed out": np.array([60e3, 76e3])}
+        found = Retrieval(np.array([2.0, 13.96]), np.array([55e3, 190e3]), limits, 15.0)
+        table = pull.retrieval_table(found, USUAL)
+        self.assertEqual(table["rows"][0], ["13.96", "190", "76", "76", "1710"])
+        self.assertEqual(table["rows"][1], ["2", "55", "60", "60", "0"])
+        unknown = pull.retrieval_table(found._replace(limits={}), USUAL)
+        self.assertEqual(unknown["rows"][0], ["13.96", "190"])
+
+
 class Cards(unittest.TestCase):
     """What bears the largest pull."""
 
