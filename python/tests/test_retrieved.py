@@ -12,6 +12,8 @@ from caisson.report import pull
 from caisson.shown import USUAL
 from caisson.verdict.retrieval import Retrieval
 
+FRICTION, WATER = "Friction outside", "Of which water beneath lid and tip"
+
 
 def said(found: Retrieval) -> str:
     """Return what a page says of a retrieval."""
@@ -63,12 +65,13 @@ class Cards(unittest.TestCase):
         forces = ("outer_friction_N", "inner_friction_N", "tip_N", "water_N")
         most = dict.fromkeys(forces, 1e6)
         run: Any = SimpleNamespace(shown=USUAL, history={curves.WITH_WATER: 0})
-        for is_retrieval, number in ((False, 2), (True, 1)):
+        pairs = (False, ["Of which friction outside", WATER]), (True, [FRICTION])
+        for is_retrieval, names in pairs:
             with (
                 mock.patch.object(pull, "largest_pull", return_value=most),
                 mock.patch.object(pull, "is_retrieval", return_value=is_retrieval),
             ):
-                self.assertEqual(len(pull.cards_of(run)), number)
+                self.assertEqual([row[0] for row in pull.cards_of(run)], names)
 
 
 if __name__ == "__main__":

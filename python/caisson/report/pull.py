@@ -32,8 +32,9 @@ def cards_of(run: Results) -> list[list[str]]:
     water that pushes a body out bears nothing of it."""
     if not (most := largest_pull(run)):
         return []
-    has_water = curves.WITH_WATER in run.history and not is_retrieval(run)
-    what = run.shown, most, has_water
+    is_pushed = is_retrieval(run)
+    has_water = curves.WITH_WATER in run.history and not is_pushed
+    what = run.shown, most, is_pushed, has_water
     return say_rows(SENTENCES, "pull_cards", *what, cells=3)
 
 
