@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from synthetic import write_run
 
-from caisson.evaluation import rest_of_run
+from caisson.evaluation import GRADIENT, rest_of_run
 from caisson.report import methods, page, verdict
 from caisson.results import Results, ResultsError
-from caisson.verdict import by_hand, outcome, run_review
+from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
 from caisson.verdict.installation import Rate
 
 D, T, LENGTH, END = 8.0, 0.04, 9.0, 8.0
@@ -316,7 +316,8 @@ class Layered(Scene):
     """3 m of sand over clay."""
 
     def test_forces_and_suction(self) -> None:
-        """Friction of both, the tip in the layer where it is, and no flow."""
+        """Friction of both, the tip in the layer where it is, and flow only while that
+        is sand: s = (R - W) / (A + (Q + F_i) / s_cr), then s = (R - W) / A."""
         run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
         ends = ((0.3, 0.001, 7.5), (0.6, 0.003, 9.0))
 
@@ -330,14 +331,69 @@ class Layered(Scene):
 
         at = np.array([2.0, 5.0, 8.0])
         found = run.columns_at(at)
+        k = QC * pi * 2.0 * 0.002
+        in_sand = np.array([TIP * 0.45 * QC, k * INNER, k * D])
         for i, h in enumerate(at):
             self.assertAlmostEqual(found["total_force_N"][i] / best(h), 1, places=9)
             s = (best(h) - 1.2e6) / AREA
+            if h < 3:
+                s = suction_in_sand(h, in_sand, 1.2e6)
             self.assertAlmostEqual(found["required_suction_Pa"][i] / s, 1, places=9)
         self.assertAlmostEqual(
             self.rest_of(run), bisected(best, 1.2e6, end=3.0), places=5
         )
         self.assertIn("DNV in sand", self.text(run))
+
+    def test_piping_above_clay(self) -> None:
+        """Piping limits the suction down to the clay, at 10 h / (1 - a) kPa, on the
+        page of a run, too; below it no water flows."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+        at = np.array([2.0, 2.9, 5.0])
+        piping = limits.limits_of(run, at)[limits.PIPING]
+        for h, found in zip(at[:2], piping):
+            a = 0.45 - 0.36 * (1 - exp(-h / D / 0.48))
+            self.assertAlmostEqual(found, 10 * h / (1 - a), places=9)
+        self.assertTrue(np.isnan(piping[2]))
+        share = run.columns_at(at)[GRADIENT]
+        needs = run.columns_at(at)["required_suction_Pa"] / 1e3
+        self.assertAlmostEqual(share[0], needs[0] / piping[0], places=9)
+        self.assertEqual(share[2], 0)
+        both = self.scene({**CLAY}, {**SAND, "top_depth_m": 3.0}, weight=1.2e6)
+        self.assertNotIn(limits.PIPING, limits.limits_of(both, at))
+
+    def test_methods_above_clay(self) -> None:
+        """The range of the method has the same flow as the best estimate."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        at = np.array([2.0, 5.0])
+        found = suction_methods.answers_of(run.site, at).in_clay
+        assert found is not None
+        ends = ((0.3, 0.001), (0.6, 0.003))
+        for (tip, wall), values in zip(ends, found.cases.values()):
+            k = QC * pi * 2.0 * wall
+            parts = np.array([TIP * tip * QC, k * INNER, k * D])
+            s = max(suction_in_sand(2.0, parts, 8e5), 0.0)
+            self.assertAlmostEqual(values[0], s, places=4)
+
+    def test_seal_above_clay(self) -> None:
+        """A caisson that rests in sand above clay has a seal."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+        self.assertIn("Seal", self.text(run))
+
+    def test_pump(self) -> None:
+        """The card has the largest flow, in sand, and that at the largest suction."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        words = " ".join(self.text(run).split())
+        self.assertRegex(words, r"m³/h at 3.00 m and .*against 9.4 kPa, of which")
+        self.assertRegex(
+            words, r"; 50.3 m³/h at 8.00 m, against the largest suction, 1"
+        )
+
+    def test_basis_of_piping(self) -> None:
+        """That a factor on piping is missing counts where water flows."""
+        words = "a default and no design basis"
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        self.assertIn(words, self.text(run))
+        self.assertNotIn(words, self.text(self.scene(CLAY)))
 
 
 class Page(Scene):
@@ -396,6 +452,21 @@ class Page(Scene):
         text = self.text(Results(run.directory))
         self.assertIn("By hand methods, not computed: feasible to 8 m", text)
         self.assertNotIn("Nothing is computed yet", text)
+
+    def test_run_after_an_installation(self) -> None:
+        """A run that goes up, or on from another one, is no installation."""
+        run = self.scene(CLAY)
+        summary = json.loads((self.path / "run.json").read_text(encoding="utf-8"))
+        summary |= {"status": "running", "progress": {"fraction_done": 0.5}}
+        for entry, value in (
+            ("Rigid body/Velocity", "-0.02"),
+            ("Installation/Directory", "results/before"),
+        ):
+            summary["entries"] = {entry: value, "Time/End penetration": "8"}
+            (self.path / "run.json").write_text(json.dumps(summary), encoding="utf-8")
+            text = self.text(Results(run.directory))
+            self.assertNotIn("By hand methods", text)
+            self.assertIn("50 % done", text)
 
 
 if __name__ == "__main__":

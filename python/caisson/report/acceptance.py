@@ -56,8 +56,9 @@ def load_of(run: Results, found: Installation) -> dict[str, Any]:
     return {"note": say("load", shown, load), **table(heads, rows)}
 
 
-def factors_of(run: Results) -> dict[str, Any]:
-    """Return the table of the factors, and what is missing for a design basis."""
+def factors_of(run: Results, found: Installation) -> dict[str, Any]:
+    """Return the table of the factors, and what is missing for a design basis where
+    piping limits the suction."""
     factors, entries = limits.factors_of(run), run.known.get("entries", {})
     given = {
         k for k in factors if f"Design/Factor on {limits.LIMITS[k].entry}" in entries
@@ -67,8 +68,12 @@ def factors_of(run: Results) -> dict[str, Any]:
     every = [(entry, *rest) for entry, rest in known.items()]
     rows = say_rows("factors", every, document, cells=4)
     is_default = factors[limits.PIPING] == 1 and limits.PIPING not in given
+    has_piping = not {limits.PIPING, limits.COMPUTED}.isdisjoint(found.limits)
     heads = ["factor on", "value", "what it acts on", "source"]
-    return {**table(heads, rows), "note": say("no_basis") if is_default else ""}
+    return {
+        **table(heads, rows),
+        "note": say("no_basis") if is_default and has_piping else "",
+    }
 
 
 def tables_of(run: Results, found: Installation, rate: Rate) -> dict[str, Any]:
@@ -81,5 +86,5 @@ def tables_of(run: Results, found: Installation, rate: Rate) -> dict[str, Any]:
         "rows": table(HEADS, rows_of(run, found)),
         "stop": table(heads, stop_rows(run, found, rate)),
         "load": load_of(run, found),
-        "factors": factors_of(run),
+        "factors": factors_of(run, found),
     }

@@ -10,7 +10,8 @@ import numpy as np
 from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
 from caisson.band import BEST
-from caisson.verdict import by_hand, installation, limits, outcome, run_review, theory
+from caisson.verdict import by_hand, installation, limits, outcome, retrieval
+from caisson.verdict import run_review, theory
 from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -27,7 +28,7 @@ MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
     " next overview factors remedies warnings computed tables has_bar has_suction"
     " averaged rate pictures units methods remarks entries defaults facts acceptance"
-    " signed phases".split(),
+    " signed phases retrieval".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -160,10 +161,19 @@ def render(
     )
 
 
+def is_installation(run: Results) -> bool:
+    """Return whether a scene pushes its body down from the mudline: it does not follow
+    an installation, as a pull and a retrieval do, and does not move up."""
+    moves_up = run.entry("Rigid body/Velocity").strip().startswith("-")
+    return not run.entry("Installation/Directory").strip() and not moves_up
+
+
 def not_begun(run: Results) -> Results:
     """Return a run or, as long as it has not begun its way down, what hand methods say
-    of its scene."""
+    of its scene, of an installation."""
     if run.by_hand or not run.is_running or not run.scene or outcome.whole_way(run):
+        return run
+    if not is_installation(run):
         return run
     try:
         hand = by_hand.band_of({BEST: by_hand.ByHand(run.directory)})
@@ -183,6 +193,8 @@ def html(run: Results, rate: Rate) -> str:
     end, found = verdict.verdict_of(run).end, None
     if evaluation.is_pull(run):
         known |= {"verdict": verdict.verdict_of(run), "cards": pull.cards_of(run)}
+        if retrieved := retrieval.retrieval_of(run):
+            known["retrieval"] = pull.retrieval_table(retrieved, run.shown)
     else:
         if (found := outcome.whole_way(run, rate)) is not None:
             found = verdict.feasible_part(run, found, end, rate)

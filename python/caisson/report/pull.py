@@ -11,9 +11,12 @@ from caisson import curves
 from caisson.evaluation import DEPTH, capacity_in_words, is_pull, is_sealed
 from caisson.plot.forces import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
+from caisson.shown import Units
+from caisson.table import in_units
 from caisson.template import say, say_rows
+from caisson.verdict.installation import trimmed
 from caisson.verdict.outcome import results_of
-from caisson.verdict.retrieval import retrieval_of
+from caisson.verdict.retrieval import Retrieval, is_retrieval, retrieval_of
 
 SENTENCES = Path(__file__).with_name("verdict.jinja")
 PULL, WATER = "pull", "water beneath lid and tip"
@@ -25,10 +28,13 @@ def largest_pull(run: Results) -> Mapping[str, Any]:
 
 
 def cards_of(run: Results) -> list[list[str]]:
-    """Return (name, value, remark) of what bears the largest pull; nothing without."""
+    """Return (name, value, remark) of what bears the largest pull; nothing without. The
+    water that pushes a body out bears nothing of it."""
     if not (most := largest_pull(run)):
         return []
-    what = run.shown, most, curves.WITH_WATER in run.history
+    is_pushed = is_retrieval(run)
+    has_water = curves.WITH_WATER in run.history and not is_pushed
+    what = run.shown, most, is_pushed, has_water
     return say_rows(SENTENCES, "pull_cards", *what, cells=3)
 
 
@@ -42,6 +48,22 @@ def sentence_of(run: Results) -> str:
         return say(SENTENCES, "retrieved", run.shown, found, begin, weight)
     how = most.get("mechanism") or capacity_in_words(most)
     return say(SENTENCES, "pulled", run.shown, most, how, weight)
+
+
+def retrieval_table(found: Retrieval, shown: Units) -> dict[str, Any]:
+    """Return the table of a retrieval from its deepest place up: the required
+    overpressure, each limit, the least of them, and what a crane takes."""
+    up = slice(None, None, -1)
+    limits = {f"{name} (kPa)": x[up] / 1e3 for name, x in found.limits.items()}
+    columns: dict[str, Any] = {
+        "depth (m)": [trimmed(shown.depth(float(h))) for h in found.depth[up]],
+        "required overpressure (kPa)": found.required[up] / 1e3,
+        **limits,
+    }
+    if limits:
+        columns["allowable (kPa)"] = found.allowable[up] / 1e3
+        columns["for a crane (kN)"] = found.missing[up] / 1e3
+    return in_units(columns, shown)
 
 
 def pull_parts(run: Results) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:

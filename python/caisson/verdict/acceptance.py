@@ -74,12 +74,11 @@ def seal_of(run: Results, found: Installation) -> Seal | None:
         return None
     end = min(FURTHER * found.rest, float(found.depth[-1]))
     depth = np.union1d(np.linspace(end / ROWS, end, ROWS), found.rest)
-    answers = suction_methods.answers_of(theory.site_of(run), depth)
-    if not answers.suctions:
+    piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
+    at_rest = depth == found.rest
+    if piping is None or not np.isfinite(piping[at_rest]).all():
         return None
-    piping = answers.suctions[suction_methods.PIPING]
-    allowed = piping / found.factors[limits.PIPING]
-    applied, at_rest = given(run, START), depth == found.rest
+    allowed, applied = piping / found.factors[limits.PIPING], given(run, START)
     suction = applied or float(allowed[at_rest][0])
     a = factor_of(run, found.rest)
     gradient = sealing.exit_gradient(suction, found.rest, a)
@@ -235,10 +234,10 @@ def level_of(run: Results, found: Installation) -> Level | None:
 
 
 class Load(NamedTuple):
-    """The load case where the suction is nearest to the allowable one: that depth, the
-    suction, the axial force (kN) on the top of the wall, the depths of the frames
-    around, and places along the wall with their depth below the mudline and the net
-    pressure from outside."""
+    """The load case where the suction is nearest to that which buckles the wall: that
+    depth, the suction, the axial force (kN) on the top of the wall, the depths of the
+    frames around, and places along the wall with their depth below the mudline and the
+    net pressure from outside."""
 
     depth: float
     suction: float
@@ -267,8 +266,10 @@ def load_of(run: Results, found: Installation) -> Load | None:
     pressures = shell.pressures_of(run, wall) if wall else {}
     if not wall or not pressures:
         return None
-    shares = np.nan_to_num(found.utilization)
-    row = int(np.argmax(shares if shares.any() else found.required))
+    buckling = found.limits.get(limits.SHELL, np.full(len(found.depth), np.nan))
+    row = int(np.argmax(found.required))
+    if np.isfinite(buckling).any():
+        row = int(np.nanargmax(found.required / buckling))
     depth, suction = float(found.depth[row]), float(found.required[row])
     more = beyond_suction(pressures, depth)
     along = [("lid", -wall.free_length(depth), suction)]

@@ -9,8 +9,8 @@ of them; low and high are the forces of the least and of the largest case, in so
 low and of high resistance. The unified method, which is for piles long after driving,
 and Andersen et al., whose range is a scatter, stand beside them only.
 
-Suction s bears what the weight W does not. In sand it takes from tip Q and inner
-friction F_i what Senders & Randolph say, and nothing in ground with clay:
+Suction s bears what the weight W does not. While the tip is in sand above any clay, it
+takes from tip Q and inner friction F_i what Senders & Randolph say, else nothing:
 
     s = (R - W) / (A + (Q + F_i) / s_cr),  R = Q + F_i + F_o,  or  s = (R - W) / A.
 
@@ -156,10 +156,15 @@ class ByHand(Results):
         return float(self.scene.get(suction_methods.WEIGHT) or 0)
 
     @functools.cached_property
+    def sand_end(self) -> float:
+        """The depth (m) down to which water flows around the tip."""
+        return theory.above_clay(self.site, self.end)
+
+    @functools.cached_property
     def byrne(self) -> HoulsbyByrne | None:
         """Houlsby & Byrne, whose flow it is; None where it does not apply."""
         try:
-            return theory.houlsby_byrne_of(self.site, self.end)
+            return theory.houlsby_byrne_of(self.site, self.sand_end)
         except theory.NotApplicable:
             return None
 
@@ -190,12 +195,7 @@ class ByHand(Results):
     ) -> np.ndarray:
         """Return the required suction [n] (Pa), below 0 where the weight suffices."""
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
-        critical = np.full(len(depth), np.inf)
-        if self.byrne is not None:
-            caisson, _ = self.byrne.by_name[UNDISTURBED]
-            critical = np.array(
-                [suction.critical_suction(caisson, float(h)) for h in depth]
-            )
+        critical, _ = suction_methods.flow_above_clay(self.site, depth)
         return suction_of(forces, self.weight, area, critical)
 
     def heave_at(self, depth: np.ndarray) -> np.ndarray:
@@ -218,12 +218,13 @@ class ByHand(Results):
 
     def flow_at(self, depth: np.ndarray, required: np.ndarray) -> Table:
         """Return the exit gradient over the critical one, and the seepage (m3/s), under
-        a suction [n] (Pa); nothing where no water flows."""
-        if self.byrne is None:
+        a suction [n] (Pa), 0 below the first clay; nothing where no water flows."""
+        if self.byrne is None or not self.sand_end:
             return {}
         caisson, _ = self.byrne.by_name[UNDISTURBED]
         ratio, flow, share = self.byrne.permeability_ratio, [], []
-        for h, s in zip(map(float, depth), np.maximum(required, 0.0)):
+        flowing = np.where(depth <= self.sand_end, np.maximum(required, 0.0), 0.0)
+        for h, s in zip(map(float, depth), flowing):
             left = 1 - pressure_factor(h / caisson.outer_diameter, ratio)
             gradient = left * s / (WEIGHT_OF_WATER * h) if h > 0 else 0.0
             area = suction.plug_area(caisson)

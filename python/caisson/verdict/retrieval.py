@@ -45,6 +45,19 @@ class Retrieval(NamedTuple):
         """The row of the largest required overpressure."""
         return int(np.argmax(self.required))
 
+    @property
+    def share(self) -> np.ndarray:
+        """The required overpressure over the allowable one, [n]; 0 where none is
+        required."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.nan_to_num(self.required / self.allowable, posinf=np.inf)
+
+    @property
+    def worst(self) -> int:
+        """The row where a crane has to take most or, where water suffices, where it is
+        nearest to what is allowed."""
+        return int(np.argmax(self.missing if self.missing.any() else self.share))
+
     def governing(self, i: int) -> str:
         """Return the name of the least limit of a row, or nothing."""
         return limits.governing(self.limits, i)

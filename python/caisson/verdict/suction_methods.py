@@ -5,12 +5,14 @@ In layers of sand, fits of a critical suction take the mean unit weight down to 
 Of the methods from a cone, suction takes what Senders and Randolph say: they give this
 for their own forces, and it is ASSUMED for those of the others.
 In clay, and in sand and clay, the required suction is what the weight does not bear of
-the forces of jacking: flow takes nothing from sand there, although it does in sand
-above the first clay.
+the forces of jacking. While the tip is in sand above the first clay, water flows around
+it: piping by Houlsby & Byrne limits the suction, and flow takes from the forces what
+Senders & Randolph say, as if the clay were sand (assumed).
 """
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
-from math import nan, pi
+from math import inf, nan, pi
 
 import numpy as np
 
@@ -18,7 +20,7 @@ from caisson.verdict import theory
 from caisson.design import suction_installation as installation
 from caisson.design.cone import ConeMethod
 from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
-from caisson.design.method import Method
+from caisson.design.method import Forces, Method
 from caisson.design.seepage import feld, ibsen_thilsted
 
 WEIGHT = "submerged_weight_N"  # of run.json
@@ -75,7 +77,8 @@ class Answers:
         low, high = self.in_clay.cases
         return (
             f"{self.in_clay.name}: (jacking force - weight) / area inside,"
-            f" {low} dashed, {high} dotted"
+            f" {low} dashed, {high} dotted; in sand above the first clay, flow takes"
+            " from it what Senders & Randolph say"
         )
 
     @property
@@ -173,18 +176,48 @@ def cone_method_of(
         return None
 
 
+def flow_above_clay(
+    site: theory.Site, depth: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what flow does at embedments [n] (m): s_cr of Senders & Randolph, infinite
+    where no water flows, and the suction of piping by Houlsby & Byrne, nan there, [n]
+    (Pa). Water flows while the tip is in sand above the first clay."""
+    critical, piping = np.full(len(depth), inf), np.full(len(depth), nan)
+    if end := theory.above_clay(site, float(depth.max())):
+        with suppress(theory.NotApplicable):
+            byrne = theory.houlsby_byrne_of(site, end)
+            (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
+            for i in np.flatnonzero(depth <= end):
+                h = float(depth[i])
+                critical[i] = installation.critical_suction(caisson, h)
+                piping[i] = installation.piping_suction(caisson, h, ratio)
+    return critical, piping
+
+
+def needed_beside_clay(
+    forces: Mapping[str, np.ndarray], weight: float, area: float, critical: np.ndarray
+) -> np.ndarray:
+    """Return the suction [n] (Pa) that bears what the weight (N) does not of the forces
+    [n] (N) of the method of clay, nan where no suction up to critical [n] (Pa) does."""
+    found = installation.suction_without_flow(forces["total"], weight, area)
+    parts = [forces[part] for part in theory.PARTS[:3]]
+    for i in np.flatnonzero(np.isfinite(critical)):
+        at = Forces(*(float(part[i]) for part in parts))
+        found[i] = installation.relieved_suction(at, weight, area, float(critical[i]))
+    return found
+
+
 def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
     """Return what the method of clay says at embedments [n]. why_not: of the others."""
-    answer, plug = theory.answer_of(theory.OF_CLAY, site, depth), theory.plug_limits(
-        site, depth
-    )
+    answer = theory.answer_of(theory.OF_CLAY, site, depth)
+    plug, (critical, _) = theory.plug_limits(site, depth), flow_above_clay(site, depth)
     if not answer.forces or site.scene.get(WEIGHT) is None:
         return Answers(depth, why_not=why_not, plug=plug)
     weight = weight_of(site.scene)
     area = pi / 4 * theory.skirt_of(site).inner_diameter ** 2
     needed = {
-        case: installation.suction_without_flow(total, weight, area)
-        for case, total in answer.total.cases.items()
+        case: needed_beside_clay(answer.forces[case], weight, area, critical)
+        for case in answer.total.cases
     }
     rests = rests_of(theory.OF_CLAY, site, float(depth.max()))
     return Answers(
@@ -201,14 +234,16 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
 def limits_at(
     site: theory.Site, depth: np.ndarray
 ) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
-    """Return the suction of piping by Houlsby and Byrne, None where they have none, and
-    those at which a plug of clay gives way, [n] (Pa) at embedments [n] (m): what
-    answers_of() has of them, in less time."""
+    """Return the suction of piping by Houlsby and Byrne, nan below the first clay, None
+    where they have none, and those at which a plug of clay gives way, [n] (Pa) at
+    embedments [n] (m): what answers_of() has of them, in less time."""
     try:
         byrne = theory.houlsby_byrne_of(site, float(depth.max()))
         weight_of(site.scene)
     except theory.NotApplicable:
-        return None, theory.plug_limits(site, depth)
+        _, piping = flow_above_clay(site, depth)
+        known = piping if np.isfinite(piping).any() else None
+        return known, theory.plug_limits(site, depth)
     (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
     found = [installation.piping_suction(caisson, float(h), ratio) for h in depth]
     return np.array(found), {}

@@ -208,6 +208,15 @@ def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
     return found
 
 
+def above_clay(site: Site, deepest: float) -> float:
+    """Return the depth (m), at most deepest, down to which all layers are sand: as long
+    as the tip is above it, water flows around it into the plug."""
+    with suppress(NotApplicable):
+        tops = [top for top, soil in soils_of(site, deepest) if soil != "sand"]
+        return min([*tops, deepest])
+    return 0.0
+
+
 def only(site: Site, deepest: float, soil: str) -> None:
     """Raise NotApplicable where a layer is another soil."""
     numbers = [number for number, _ in site.layers(deepest)]
