@@ -64,8 +64,8 @@ namespace CaissonMPM
        {"sealed", Control::sealed}},
       "",
       "The suction is the one that the body requires to move as prescribed "
-      "(required; an overpressure is negative, and retrieves a body that moves "
-      "up), that of Suction table (table), the one at which the pump "
+      "(required; set so by name, it is an overpressure, which is negative, "
+      "where the body moves up), that of Suction table (table), the one at which the pump "
       "takes the flow of Pumped flow table (flow), or the one of water that no "
       "pump takes and that only the plug and a leak let in or out (sealed). "
       "Automatic is required where water flows (Level = seepage or coupled), "
@@ -198,7 +198,7 @@ namespace CaissonMPM
     if (settings.is_required())
       {
         suction -= std::expm1(-dt / delay) * (required_ - suction);
-        if (!load.rises)
+        if (!load.rises || settings.control != Control::required)
           suction = std::max(suction, 0.);
         return;
       }

@@ -21,6 +21,7 @@ AREA = math.pi * INNER_RADIUS**2
 RISES: Entries = {
     "Rigid body/Initial penetration": DEPTH,
     "Rigid body/Velocity": -0.1,
+    "Water/Suction control": "required",
     "Time/End penetration": 1.8,
     "Output/Record interval": 0.05,
     "Output/Frame interval": "never",

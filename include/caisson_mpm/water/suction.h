@@ -101,10 +101,11 @@ namespace CaissonMPM
   /**
    * The suction is either given over time, or the one that a body that moves as
    * prescribed requires: with the resistance R, the weight W and the area A,
-   * (R - W)/A. It is negative, an overpressure, only while the body moves up,
-   * as R is then negative, too. The required suction is followed with a delay,
-   * because suction weakens the soil: at depth, 1 kPa takes several times as
-   * much resistance as it loads the lid, and following at once would swing.
+   * (R - W)/A. It is negative, an overpressure, only where it is asked for by
+   * name and the body moves up, as R is then negative, too. The required
+   * suction is followed with a delay, because suction weakens the soil: at
+   * depth, 1 kPa takes several times as much resistance as it loads the lid,
+   * and following at once would swing.
    *
    * Or the pump takes a given flow Q, and the body must be free to follow: the
    * suction grows while less water leaves the caisson than the pump takes, as
