@@ -164,6 +164,21 @@ def _recorded(directory: Path, change: dict[str, str] | None = None) -> dict[str
     return known
 
 
+def make_directory(path: Path, refuse: Refusal = InputError) -> None:
+    """Make a directory for results unless it is there. Raises what refuse says:
+    InputError or one of its kind, with the part of the path that is in the way."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        parts = (part for part in (path, *path.parents) if os.path.lexists(part))
+        found = next(parts, path)
+        why = error.strerror if found.is_dir() else f"{found} is no directory"
+        raise refuse(
+            f"{path} cannot be made: {why}; name another directory, or move what is"
+            " there"
+        ) from error
+
+
 def claim(directory: Path, source: Path, how: str) -> None:
     """Take a directory for the results of a file. Raises InputError where it has those
     of another one. how: to choose another directory."""
@@ -176,7 +191,7 @@ def claim(directory: Path, source: Path, how: str) -> None:
             f" is the same file at another place, delete its line in"
             f" {directory / RECORD}"
         )
-    directory.mkdir(parents=True, exist_ok=True)
+    make_directory(directory)
     _recorded(directory, {OWNER: own})
 
 

@@ -19,18 +19,20 @@ from caisson.results import Results
 from caisson.runner import Entries, RunError
 
 ENTRY = "Installation/Phases"
+END = "Time/End penetration"
 LIST = "phases.txt"  # in the folder of the scene: the phases that were asked for last
 REST, DRAINED, UNDRAINED = "rest", "pull drained", "pull undrained"
 PUSH, RETRIEVAL = "push", "retrieval"
 # of the velocity of the scene, positive downward
 SHARES = {REST: 0.0, DRAINED: -0.2, UNDRAINED: -0.05, PUSH: 0.2, RETRIEVAL: -0.2}
 LEAST_WAY, LARGEST_OVERSHOOT = 0.03, 1e-3  # of the diameter
+NUMBER = r"\d{1,6}(?:\.\d*)?"
 REST_RUN, LARGEST_SCALING = 5.0, 100.0  # s; as in prm/tension.prm
 RECORDS = 200  # rows of a phase
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 FORM = re.compile(
-    rf"(?:{REST} +(?P<time>\d+\.?\d*) *(?P<unit>{'|'.join(UNITS)})"
-    rf"|(?P<word>{'|'.join(list(SHARES)[1:])})(?: +to +(?P<depth>\d+\.?\d*)(?: *m)?)?)"
+    rf"(?:{REST} +(?P<time>{NUMBER}) *(?P<unit>{'|'.join(UNITS)})"
+    rf"|(?P<word>{'|'.join(list(SHARES)[1:])})(?: +to +(?P<depth>{NUMBER})(?: *m)?)?)"
 )
 KNOWN = (
     f"{REST} TIME (such as 30 d, 12 h, 5 min), {DRAINED}, {UNDRAINED}, {PUSH} and"
@@ -107,6 +109,8 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
         )
     if phase.word == REST and not phase.time:
         return "give a time above 0"
+    if phase.word != REST and not float(entries.get("Rigid body/Velocity", "0.1")):
+        return "its velocity is a share of Rigid body/Velocity, which is 0; set it"
     if phase.word == UNDRAINED and not is_coupled:
         return (
             f"its sealed lid needs water that flows, and Water/Level is {level}; set"
@@ -115,29 +119,36 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
     if phase.word == DRAINED and (layers := undrained_layers(entries)):
         return (
             f"the strength of layer {layers[0]} is undrained, and so is each pull; give"
-            " it a law of effective stress, such as modified Cam clay, or write"
-            f" {RETRIEVAL}"
+            f" it a law with a drained friction angle, or write {RETRIEVAL}"
         )
     return ""
 
 
-def refuse_faults(phases: Sequence[Phase], entries: Mapping[str, str]) -> None:
+def refuse_depth(phase: Phase, at: float, entries: Mapping[str, str]) -> None:
+    """Refuse a phase that cannot begin at a depth (m), as its own lies behind that.
+    Raises RunError."""
+    if phase.word == REST or (end_of(phase, at, entries) - at) * SHARES[phase.word] > 0:
+        return
+    where = "below" if phase.word == PUSH else "above"
+    fault = f"give a depth {where} {at:g} m, where the phase before it ends"
+    if phase.depth is None:
+        fault = "leave it out: the phase before it ends at the mudline"
+    raise RunError(f"{ENTRY}: {phase.text}: {fault}")
+
+
+def refuse_faults(phases: Sequence[Phase], entries: Mapping[str, str]) -> float:
     """Refuse phases that the scene cannot have, before anything is run; entries: those
-    in effect. Raises RunError."""
-    end = entries.get("Time/End penetration", "never")
-    at = None if end == "never" else float(end)
+    in effect. Return the largest depth that they reach (m). Raises RunError."""
+    end = entries.get(END, "never")
+    at, deepest = None if end == "never" else float(end), 0.0
     for phase in phases:
         if fault := fault_of(phase, entries):
             raise RunError(f"{ENTRY}: {phase.text}: {fault}")
-        if phase.depth is not None and at is not None:
-            if (phase.depth - at) * SHARES[phase.word] <= 0:
-                where = "below" if phase.word == PUSH else "above"
-                raise RunError(
-                    f"{ENTRY}: {phase.text}: give a depth {where} {at:g} m, where the"
-                    " phase before it ends"
-                )
-        if phase.word != REST and at is not None:
+        if at is not None:
+            refuse_depth(phase, at, entries)
             at = end_of(phase, at, entries)
+        deepest = max(deepest, at or phase.depth or 0.0)
+    return deepest
 
 
 def end_of(phase: Phase, at: float, entries: Mapping[str, str]) -> float:
@@ -177,7 +188,7 @@ def motion_of(
         "Rigid body/Velocity": f"{velocity:.6g}",
         "Rigid body/Ramp time": f"{ramp_of(phases, entries):.3g}",
         "Method/Local damping": 0.4,
-        "Time/End penetration": end if velocity else "never",
+        END: end if velocity else "never",
         "Time/End time": "never" if velocity else REST_RUN,
         "Output/Record interval": f"{seconds / RECORDS:.3g}",
     }
@@ -207,9 +218,11 @@ def entries_of(
     phases: Sequence[Phase], before: Path, entries: Mapping[str, str], title: str
 ) -> Entries:
     """Return what the last of some phases sets beside the scene with entries in effect.
-    before: the folder of the run where it begins. Raises ResultsError."""
+    before: the folder of the run where it begins. Raises ResultsError, or RunError
+    where that run has ended elsewhere than its scene says."""
     run, phase = Results(before), phases[-1]
     at = float(run.history["penetration_m"][-1])
+    refuse_depth(phase, at, entries)
     scaling = max(run.summary.get("mass_scaling") or [1.0])
     return {
         "Title": title_of(title, phases),

@@ -324,7 +324,7 @@ class Run:
         """Make the directory; return the options with which the program removes what
         is there, if it is the run's own. Its log and its record begin anew."""
         is_own = (self.directory / self.RECORD).is_file()
-        self.directory.mkdir(parents=True, exist_ok=True)
+        disk.make_directory(self.directory, RunError)
         for name in ("log", self.RECORD) if is_own else ():
             (self.directory / name).unlink(missing_ok=True)
         return ["--overwrite"] if is_own else []

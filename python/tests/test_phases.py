@@ -44,7 +44,9 @@ class Words(unittest.TestCase):
 
     def test_bad_words(self) -> None:
         """One line lists the known ones."""
-        for text in ("pull", "rest", "rest 30", "rest 3 d to 1 m", "push to", "grout"):
+        huge = "9" * 400
+        bad = ["pull", "rest", "rest 30", "rest 3 d to 1 m", "push to", "grout"]
+        for text in (*bad, f"rest {huge} d", f"push to {huge} m"):
             with self.assertRaises(RunError) as caught:
                 phases.phases_in(f"retrieval, {text}")
             said = str(caught.exception)
@@ -73,6 +75,10 @@ class Words(unittest.TestCase):
         self.assertIn("above 2 m", self.refusal("retrieval to 2 m"))
         with self.assertRaisesRegex(RunError, "strength of layer 1 is undrained"):
             phases.refuse_faults(phases.phases_in("pull drained"), COUPLED | CLAY)
+        said = self.refusal("retrieval to 0 m, pull undrained")
+        self.assertIn("pull undrained: leave it out: the phase before", said)
+        said = self.refusal("push", **{"Rigid body_Velocity": "0"})
+        self.assertIn("a share of Rigid body/Velocity, which is 0; set it", said)
         self.assertEqual(asked_for(["--validate"], {phases.ENTRY: "push"}), [])
 
 
@@ -97,6 +103,13 @@ class Page(WithPage):
         self.assertEqual(found["Time/Mass scaling"], "100")
         self.assertEqual(found["Time/End time"], 5.0)
 
+    def test_ended_before_its_depth(self) -> None:
+        """A depth that the run before has not come to is no end of a retrieval."""
+        leave_run(self.path, SUMMARY)
+        with self.assertRaisesRegex(RunError, "give a depth above 4.5 m"):
+            part = phases.phases_in("retrieval to 5 m")
+            phases.entries_of(part, self.path, COUPLED, "mine")
+
     def leave_phase(self, name: str, title: str) -> None:
         """Leave a phase that has ended, with its page."""
         path = self.path / name
@@ -118,8 +131,15 @@ class Page(WithPage):
         page = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
         self.assertTrue('<a href="phase_2_push/report.html">push</a>' in page)
         self.assertTrue("not run yet" in page)
-        (self.path / phases.LIST).write_text("push\n", encoding="utf-8")
-        self.assertEqual([row.text for row in rows_of(Results(self.path))], ["push"])
+
+    def test_older_than_its_scene(self) -> None:
+        """A phase does not count whose scene was computed again after it."""
+        scene = {**SUMMARY, "status": "stopped", "entries": {phases.ENTRY: "push"}}
+        push = {**scene, "title": f"{SUMMARY['title']}: push", "written": "2026-01-02"}
+        leave_run(self.path / "phase_2_push", push)
+        for written, folder in (("2026-01-01", "phase_2_push"), ("2026-01-03", "")):
+            leave_run(self.path, {**scene, "written": written})
+            self.assertEqual(rows_of(Results(self.path))[0].folder, folder)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, caisson, history, scene
-from program import set_options, summary
+from program import BAD_INPUT, FAILURE, SUCCESS, Entries, ProgramTest, caisson
+from program import history, scene, set_options, summary
 from test_undrained_suction import TOTAL_STRESS
 
 from caisson import phases, report
@@ -87,11 +87,35 @@ class Phases(ProgramTest):
             "retrieval, pul": "'pul' is no phase; known are",
             "rest 30 d": "leave it out",
             "pull drained": "strength of layer 1 is undrained",
+            "push to 99 m": "cannot accommodate a travel of 98.5 m",
         }.items():
             text = self.run_phases(BAD_INPUT, path, **{phases.ENTRY: words})
             self.assertIn(said, text)
             self.assertEqual(len(text.strip().splitlines()), 1, text)
         self.assertFalse(path.exists())
+
+    def test_phase_that_cannot_begin(self) -> None:
+        """One line says how to go on: with a file in the place of its folder, without
+        the checkpoint and with a damaged record of the scene. An earlier phase is not
+        drawn as the one that was refused."""
+        path = self.directory()
+        path.mkdir(parents=True)
+        (path / FOLDER).write_text("mine", encoding="utf-8")
+        text = self.run_phases(FAILURE, path)
+        self.assertEqual(text.count(f"{FOLDER} is no directory; name another"), 2)
+        self.assertNotIn("no pictures", text)
+        (path / FOLDER).unlink()
+        self.run_phases(SUCCESS, path)
+        (path / FOLDER / "run_key.json").unlink()
+        (path / FOLDER / "checkpoint.info").unlink()
+        (path / "checkpoint.info").unlink()
+        text = self.run_phases(FAILURE, path)
+        self.assertNotIn("Retrieved", text)
+        self.assertIn("--overwrite computes the scene and its phases again", text)
+        (path / "run.json").write_text("", encoding="utf-8")
+        text = self.run_phases(BAD_INPUT, path)
+        self.assertIn("--overwrite computes the scene and its phases again", text)
+        self.run_phases(SUCCESS, path, "--overwrite")
 
 
 if __name__ == "__main__":

@@ -68,9 +68,7 @@ def write(
 ) -> list[Path]:
     """Write table and picture into a directory; return the files. tip: the depth to
     which a skirt goes (m); location: of the test, in a file of several."""
-    if directory.exists() and not directory.is_dir():
-        raise InputError(f"--out {directory} is a file: name a directory")
-    directory.mkdir(parents=True, exist_ok=True)
+    disk.make_directory(directory)
     title = f"Cone test {found.name} {printable(location)}".rstrip()
     return [
         cone_texts.write(directory / "layers.csv", found.layers),

@@ -24,6 +24,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from caisson import needed, ranks
+from caisson.command_line import Parser
 from caisson.commands import run_band, run_phases
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
@@ -65,9 +66,7 @@ def add_own(parser: argparse.ArgumentParser) -> None:
 def take_own(options: argparse.Namespace) -> None:
     """Take the options that the program does not have from the words after the file,
     where they may stand as well."""
-    parser = argparse.ArgumentParser(
-        prog="caisson run", add_help=False, allow_abbrev=False
-    )
+    parser = Parser(prog="caisson run", add_help=False, allow_abbrev=False)
     add_own(parser)
     _, options.arguments = parser.parse_known_args(options.arguments, options)
 
@@ -86,7 +85,7 @@ def places_of(
 ) -> tuple[Path | None, Path | None]:
     """Return where the program will write, and the file that stops it; None where there
     is none. entries: those in effect."""
-    parser = argparse.ArgumentParser(add_help=False)
+    parser = Parser(prog="caisson run", add_help=False, allow_abbrev=False)
     parser.add_argument("--output-directory", type=Path)
     chosen: Path | None = parser.parse_known_args(arguments)[0].output_directory
     if not entries:

@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
+from caisson.command_line import Parser
 from caisson.progress import span
 from caisson.ranks import cores
 from caisson.runner import Run, RunError, Status
@@ -19,7 +20,7 @@ def options_of(
 ) -> argparse.Namespace:
     """Return the options of the program that a band takes, or another one that makes
     several runs, with further ones. Raises RunError."""
-    parser = argparse.ArgumentParser(add_help=False)
+    parser = Parser(prog="caisson run", add_help=False, allow_abbrev=False)
     for name in further:
         parser.add_argument(name)
     for name in ("--restart", "--overwrite"):

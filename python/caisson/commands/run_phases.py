@@ -8,10 +8,12 @@ from pathlib import Path
 
 from caisson import disk, phases, report
 from caisson.commands.run_band import options_of, status_of, what_becomes_of
-from caisson.phases import ENTRY, Phase
-from caisson.runner import Run, Status
+from caisson.phases import END, ENTRY, Phase
+from caisson.results import ResultsError
+from caisson.runner import Run, RunError, Status
 from caisson.runs import How, StudyRun, make, survey
 
+AGAIN = "--overwrite computes the scene and its phases again"
 QUERIES = {"--validate", "--print-parameters", "--explain", "--version", "--help", "-h"}
 Draw = Callable[[Path, Path | None], None]
 Reporting = Callable[[Path], AbstractContextManager[None]]
@@ -41,11 +43,20 @@ def compute(member: StudyRun, again: bool, resumes: bool, reporting: Reporting) 
     return True
 
 
+def has_results(member: StudyRun) -> bool:
+    """Return whether a run has left something to draw: one that was refused has not,
+    though its folder may have what another one has left."""
+    history = member.run.directory / "history.csv"
+    return history.is_file() and (member.is_stopped or member.status is not None)
+
+
 def say_end(member: StudyRun) -> None:
     """Say why no phase follows a run that has not succeeded."""
     why = member.trouble or f"{member.last_words}, see {member.log}"
     if member.is_stopped:
         why = "stopped; the same command goes on"
+    elif member.run.entries.get("Installation/Directory") and not has_results(member):
+        why = f"{why} {AGAIN}"
     print(f"run: {member.name}: {why}", file=sys.stderr)
 
 
@@ -79,11 +90,29 @@ class Chain:
         settings = {"ranks": self.ranks} if self.ranks else {}
         return StudyRun("run:", name, "", "", 0, settings, run)
 
+    def refuse_way(self) -> None:
+        """Refuse phases that go where the mesh of the scene does not, before anything
+        is run. Raises RunError."""
+        deepest, end = (
+            phases.refuse_faults(self.phases, self.entries),
+            self.entries[END],
+        )
+        if deepest > (0.0 if end == "never" else float(end)):
+            try:
+                Run(self.scene, {**self.given, END: deepest}, self.directory).validate()
+            except RunError as error:
+                said = str(error).rpartition("bad input: ")[2].splitlines()[0]
+                raise RunError(f"{ENTRY} goes to {deepest:g} m: {said}") from error
+
     def phase(self, number: int, before: Path) -> StudyRun:
-        """Return the run of a phase, of which the scene is number 1."""
+        """Return the run of a phase, of which the scene is number 1. Raises RunError
+        where the run before it cannot be read."""
         part = self.phases[: number - 1]
         name = phases.folder_of(part[-1], number)
-        entries = phases.entries_of(part, before, self.entries, self.title)
+        try:
+            entries = phases.entries_of(part, before, self.entries, self.title)
+        except ResultsError as error:
+            raise RunError(f"{error}; {AGAIN}") from error
         return self.member(name, self.directory / name, **entries)
 
     def make(self, draw: Draw, reporting: Reporting) -> Status:
@@ -96,10 +125,10 @@ class Chain:
             again = self.again or was_made
             is_new = compute(member, again, not was_made, reporting)
             was_made = was_made or is_new
-            if number == 1:
+            if number == 1 and self.directory.is_dir():
                 disk.write(list_path, ", ".join(x.text for x in self.phases) + "\n")
             page = member.run.directory / report.NAME
-            if is_new or not page.is_file():
+            if has_results(member) and (is_new or not page.is_file()):
                 draw(member.run.directory, self.error_bar if number == 1 else None)
             if (status := status_of(member)) != Status.SUCCESS:
                 say_end(member)
@@ -110,6 +139,7 @@ class Chain:
         """Compute what is missing, and renew the page of the scene; return the exit
         status of the last run. draw: draws a run, with an error bar; reporting: renews
         a page as long as its run goes on."""
+        self.refuse_way()
         status = self.make(draw, reporting)
         if (self.directory / "history.csv").is_file():
             print(f"report: {report.write(self.directory)}")

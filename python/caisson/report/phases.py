@@ -52,9 +52,12 @@ def row_of(
     of_phase: Results, before: Results, title: str, part: list[phases.Phase]
 ) -> Row:
     """Return the row of the last of some phases, after another run, of a scene with a
-    title. A folder with the results of other phases does not count."""
+    title. A folder with the results of other phases does not count, nor one whose
+    results are older than the run where it begins."""
     text = part[-1].text
-    if of_phase.known.get("title") != phases.title_of(title, part):
+    times = [str(run.known.get("written", "")) for run in (before, of_phase)]
+    is_other = of_phase.known.get("title") != phases.title_of(title, part)
+    if is_other or times != sorted(times):
         return Row(text, say(SENTENCES, "not_run"), "")
     said = said_of(of_phase, before, part[-1].word == REST)
     return Row(text, said, of_phase.directory.name)

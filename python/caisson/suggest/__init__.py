@@ -162,6 +162,20 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
         raise SuggestError("--water-depth bounds the suction: give --weight, too")
     if options.wall_friction is not None and not 0 <= options.wall_friction < 89:
         raise SuggestError("--wall-friction must be between 0 and 89 degrees")
+    check_files(options, estimates)
+    if options.study and options.cpt:
+        raise SuggestError(
+            "--study: low and high of a cone test are scenes, too, which"
+            f" `{run_of(options.file, [LOW, HIGH])}` runs; leave it out"
+        )
+
+
+def check_files(options: argparse.Namespace, estimates: Sequence[str]) -> None:
+    """Refuse files that cannot be written, or are there. Raises SuggestError."""
+    if options.file.suffix != ".prm":
+        raise SuggestError(f"the scene {options.file}: its name must end with .prm")
+    if options.study and options.study.suffix != ".toml":
+        raise SuggestError(f"--study {options.study}: its name must end with .toml")
     files: list[Path] = [f for f in (options.file, options.study) if f]
     files.append(page_of(options.file))
     files += [cone_test.beside(options.file)] * bool(options.cpt)
@@ -169,15 +183,14 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
-        if file.exists() and not options.overwrite:
-            raise SuggestError(f"{file} exists; --overwrite replaces it")
-    if options.study and options.cpt:
-        raise SuggestError(
-            "--study: low and high of a cone test are scenes, too, which"
-            f" `{run_of(options.file, [LOW, HIGH])}` runs; leave it out"
-        )
-    if options.study and options.study.suffix != ".toml":
-        raise SuggestError(f"--study {options.study}: its name must end with .toml")
+        if not file.exists() or options.overwrite:
+            continue
+        if options.cpt and options.cpt.exists() and file.samefile(options.cpt):
+            raise SuggestError(
+                f"{file} is the cone test, and a scene {options.file} gets its table in"
+                " a file of this name: give the scene another name"
+            )
+        raise SuggestError(f"{file} exists; --overwrite replaces it")
 
 
 def refuse_quick_clay(layers: Sequence[Layer]) -> None:
@@ -526,7 +539,7 @@ def main(options: argparse.Namespace) -> int:
         files.append(disk.write(page_of(options.file), page))
     run = run_of(options.file, estimates)
     print(f"written: {', '.join(map(str, files))}; next: {run}")
-    way = run_of(Path(f"--error {options.error}% {options.file}"), [])
+    way = run_of(options.file, [], f"--error {options.error}%")
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
         f" error, with its error bar: {way}"

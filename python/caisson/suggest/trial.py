@@ -3,6 +3,7 @@
 hand methods say, on its page."""
 import concurrent.futures
 import re
+import shlex
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -55,10 +56,12 @@ def page_of(scene: Path) -> Path:
     return scene.with_suffix(".html")
 
 
-def run_of(scene: Path, estimates: Sequence[str]) -> str:
-    """Return the command that runs a scene, with these estimates beside it."""
+def run_of(scene: Path, estimates: Sequence[str], *options: str) -> str:
+    """Return the command that runs a scene, with these estimates beside it, as a shell
+    reads it; options: further ones."""
     run = "caisson run" if INSTALLED else "scripts/run"
-    return f"{run}{' --band' if estimates else ''} {scene}"
+    name = shlex.quote(str(scene)) if scene.name[0] != "-" else f"./{scene}"
+    return " ".join([run, *["--band"] * bool(estimates), *options, name])
 
 
 def by_hand(
