@@ -28,9 +28,10 @@ RISES: Entries = {
 }
 
 
-def share_at_tip(depth: float) -> float:
-    """Return the share of a pressure beneath the lid that is left at the tip, by finite
-    differences of 0.1 m around the wall of the scene, in sand of one permeability."""
+def flow_at(depth: float) -> tuple[float, float]:
+    """Return the share of a pressure beneath the lid that is left at the tip, and its
+    gradient at the mudline beside the inner wall (1/m), by finite differences of 0.1 m
+    around the wall of the scene, in sand of one permeability."""
     size, n_r, n_z = 0.1, 70, 50
     wall, rows = range(28, 30), round(depth / size)
     number = np.arange(n_r * n_z).reshape(n_r, n_z)
@@ -53,7 +54,8 @@ def share_at_tip(depth: float) -> float:
                     matrix[row, row] += radius
                     matrix[row, number[k, m]] -= radius
     field = spsolve(matrix.tocsr(), right).reshape(n_r, n_z)
-    return float(field[wall[0] : wall[-1] + 1, rows].mean())
+    gradient = (1 - field[wall[0] - 1, 0]) / (size / 2)
+    return float(field[wall[0] : wall[-1] + 1, rows].mean()), float(gradient)
 
 
 class Retrieval(ProgramTest):
@@ -113,7 +115,11 @@ class Retrieval(ProgramTest):
         rows, known = self.retrieved("sand", entries)
         last = rows[-1]
         self.assertLess(last["seepage_flow_m3_s"], 0)
-        share = share_at_tip(last["penetration_m"])
+        share, gradient = flow_at(last["penetration_m"])
+        head = last["suction_Pa"] / 9810
+        self.assertAlmostEqual(
+            last["exit_gradient_wall"] / (head * gradient), 1, delta=0.03
+        )
         self.assertAlmostEqual(last["pore_pressure_factor"] / share, 1, delta=0.05)
         tip = math.pi * (OUTER_RADIUS**2 - INNER_RADIUS**2)
         lifted = -last["suction_Pa"] * (AREA + share * tip)
