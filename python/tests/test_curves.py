@@ -115,5 +115,19 @@ class Shape(unittest.TestCase):
         self.assertAlmostEqual(error, 0.1)
 
 
+class Gradients(unittest.TestCase):
+    """The exit gradient of a run."""
+
+    def test_larger_of_wall_and_axis(self) -> None:
+        """Over the critical one; none below 0, nor where none is critical."""
+        history = {
+            "exit_gradient_wall": np.array([0.45, 0.1, -0.2, 0.3]),
+            "exit_gradient_axis": np.array([0.09, 0.36, -0.1, 0.3]),
+            "critical_gradient": np.array([0.9, 0.9, 0.9, 0.0]),
+        }
+        shares = curves.gradient_share(history)
+        np.testing.assert_allclose(shares, [0.5, 0.4, 0.0, 0.0])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -260,5 +260,22 @@ class Governing(WithPage):
         self.assertTrue(run.history)
 
 
+class LidDepth(unittest.TestCase):
+    """Where the plug meets the lid."""
+
+    def test_beyond_the_run(self) -> None:
+        """As over the last meter, in which the room falls by 1.2 m; a room that falls
+        by a twentieth only is taken to fall by a tenth."""
+        depth = np.array([3.0, 3.5, 4.0])
+        found = limits.lid_depth(depth, np.array([1.8, 1.2, 0.6]))
+        self.assertAlmostEqual(found or 0, 4.5)
+        found = limits.lid_depth(depth, np.array([0.65, 0.625, 0.6]))
+        self.assertAlmostEqual(found or 0, 10.0)
+
+    def test_between_rows(self) -> None:
+        depth, room = np.array([3.0, 3.5, 4.0]), np.array([0.4, 0.1, -0.3])
+        self.assertAlmostEqual(limits.lid_depth(depth, room) or 0, 3.625)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -16,7 +16,8 @@ from made_up_state import Temporary
 from caisson import __main__ as program
 from caisson.verdict.loaded import load
 from caisson.results import ResultsError, read_table
-from caisson.export.springs import Springs, last_motion, springs_of, wave_velocity
+from caisson.export.springs import Springs, last_motion, segments_of, springs_of
+from caisson.export.springs import wave_velocity
 
 DIAMETER, WALL = 4.0, 0.1
 RADII = {"inner": 1.9, "outer": 2.0}
@@ -337,6 +338,27 @@ class Files(MadeUp):
         self.assertIn("WARNING: at the beginning the soil bears 50", text)
         self.assertIn("from 2 m, where the motion begins.", text)
         self.assertNotIn("bears the submerged weight", text)
+
+
+class Segments(unittest.TestCase):
+    """The parts of a wall."""
+
+    def test_means_by_area(self) -> None:
+        """Of two nodes of 1 and 3 m2 in the lowest eighth of a wall of 8 m."""
+        walls = {
+            "time_s": np.zeros(2),
+            "penetration_m": np.full(2, 8.0),
+            "depth_m": np.array([7.2, 7.6]),
+        }
+        for wall, stress in (("inner", (10.0, 20.0)), ("outer", (0.0, 4.0))):
+            walls[f"{wall}_area_m2"] = np.array([1.0, 3.0])
+            walls[f"{wall}_shear_stress_Pa"] = np.array(stress)
+        found = {wall: rest for wall, *rest in segments_of(walls, np.zeros(1), 8.0)}
+        for wall, mean in (("inner", 17.5), ("outer", 3.0)):
+            depth, area, stress = found[wall]
+            self.assertAlmostEqual(depth, 7.5)
+            self.assertAlmostEqual(area, 4.0)
+            self.assertAlmostEqual(float(stress[0]), mean)
 
 
 if __name__ == "__main__":

@@ -4,13 +4,15 @@ import unittest
 from collections.abc import Callable
 from collections.abc import Sequence
 from itertools import pairwise
-from math import exp, isnan, pi, radians, tan
+from math import exp, isnan, pi, radians, sqrt, tan
 
 import numpy as np
 
 from caisson.design.houlsby_byrne import Caisson, Layer, Seepage
 from caisson.design.method import Forces
 from caisson.design import seepage as fits
+from caisson.design import senders_randolph, unified
+from caisson.design.cone import Profile, Skirt
 from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.suction_installation import (
     critical_suction,
@@ -263,6 +265,24 @@ class SendersRandolph(unittest.TestCase):
         self.assertAlmostEqual(
             critical_suction(body, 3), critical_suction(caisson(), 3)
         )
+
+
+class ByCone(unittest.TestCase):
+    """Forces from q_c = 10 MPa on a wall of 40 mm and 8 m diameter to 2 m depth."""
+
+    def test_forces(self) -> None:
+        skirt = Skirt(8.0, 0.04, 24.0, 28.0)
+        profile = Profile([0.0, 5.0], [10e6, 10e6])
+        ring, ratio = pi / 4 * (8**2 - 7.92**2), 1 - (7.92 / 8) ** 2
+        senders = senders_randolph.method(skirt, profile).forces(2.0, "high")
+        self.assertAlmostEqual(senders.tip / (0.2 * 10e6 * ring), 1, places=6)
+        k_f = 0.03 / sqrt(2) * ratio**0.3 * tan(radians(28.0))
+        outer = pi * 8 * 2 * k_f * 10e6
+        self.assertAlmostEqual(senders.outer_friction / outer, 1, places=6)
+        joined = unified.method(skirt, profile).forces(2.0, "low")
+        self.assertAlmostEqual(joined.tip / (0.5 * 10e6 * ring), 1, places=6)
+        outer = pi * 8 * 2 * ratio**0.3 * tan(radians(27.1)) / 44 * 10e6
+        self.assertAlmostEqual(joined.outer_friction / outer, 1, places=6)
 
 
 if __name__ == "__main__":
