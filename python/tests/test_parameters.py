@@ -10,6 +10,7 @@ import numpy as np
 from scipy import stats
 
 from caisson import study_command
+from caisson.parameters import effects
 from caisson.parameters.distributions import Distribution
 from caisson.parameters.formula import Formula, FormulaError
 from caisson.parameters.sampling import correlations_of
@@ -350,6 +351,15 @@ standard_deviation = 3e6
                 "[parameters.a]\nentry='A/a'\nformula='1'": "none varies",
             },
         )
+
+
+class Chance(unittest.TestCase):
+    """The range of rank correlations without any."""
+
+    def test_both_sides(self) -> None:
+        """Of ten runs: Student's t of 8 degrees, 2.5 % on each side, is 2.306."""
+        self.assertAlmostEqual(effects.chance(10), 2.306 / math.sqrt(8 + 2.306**2), 4)
+        self.assertEqual(effects.chance(3), 1.0)
 
 
 if __name__ == "__main__":

@@ -134,7 +134,8 @@ class Page(WithPage):
 
     def test_older_than_its_scene(self) -> None:
         """A phase does not count whose scene was computed again after it."""
-        scene = {**SUMMARY, "status": "stopped", "entries": {phases.ENTRY: "push"}}
+        scene: dict[str, Any] = {**SUMMARY, "status": "stopped"}
+        scene["entries"] = {phases.ENTRY: "push"}
         push = {**scene, "title": f"{SUMMARY['title']}: push", "written": "2026-01-02"}
         leave_run(self.path / "phase_2_push", push)
         for written, folder in (("2026-01-01", "phase_2_push"), ("2026-01-03", "")):

@@ -16,7 +16,7 @@ import numpy as np
 
 from caisson import density_law, suggest
 from caisson.paths import SCENES
-from caisson.suggest import cone, sand, sizes, trial, walls
+from caisson.suggest import clay, cone, sand, sizes, trial, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
@@ -397,6 +397,23 @@ class Refusals(unittest.TestCase):
             with self.subTest(words=words), self.assertRaises(SuggestError) as caught:
                 layers_in(*words)
             self.assertIn(said, str(caught.exception))
+
+
+class Bounds(unittest.TestCase):
+    """Where a mesh ends, and K0 of clay."""
+
+    def test_bottom(self) -> None:
+        """A diameter and a half below the tip, in whole meters."""
+        body = sizes.Body(8.0, 20.0, 0.05)
+        self.assertEqual(sizes.bottom_of(body, 19.0, 20.0, 1.0), 32.0)
+
+    def test_rest_within_the_strength(self) -> None:
+        """Clay of 10 kPa bears 95 % of 20 kPa beside 100 kPa: K0 is 0.81 at least."""
+        self.assertEqual(clay.held(0.82, "10e3", [(5.0, 1e5)]), "0.82")
+        bound = clay.held(0.80, "10e3", [(5.0, 1e5)])
+        self.assertEqual(bound, "max(0.8, 1 - 1.9*(10e3)/s)")
+        bound = clay.held(1.25, "10e3", [(5.0, 1e5)])
+        self.assertEqual(bound, "min(1.2, 1 + 1.9*(10e3)/s)")
 
 
 if __name__ == "__main__":

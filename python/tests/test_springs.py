@@ -353,12 +353,13 @@ class Segments(unittest.TestCase):
         for wall, stress in (("inner", (10.0, 20.0)), ("outer", (0.0, 4.0))):
             walls[f"{wall}_area_m2"] = np.array([1.0, 3.0])
             walls[f"{wall}_shear_stress_Pa"] = np.array(stress)
-        found = {wall: rest for wall, *rest in segments_of(walls, np.zeros(1), 8.0)}
-        for wall, mean in (("inner", 17.5), ("outer", 3.0)):
-            depth, area, stress = found[wall]
+        means = {"inner": 17.5, "outer": 3.0}
+        found = segments_of(walls, np.zeros(1), 8.0)
+        self.assertEqual([part[0] for part in found], list(means))
+        for wall, depth, area, shear in found:
             self.assertAlmostEqual(depth, 7.5)
             self.assertAlmostEqual(area, 4.0)
-            self.assertAlmostEqual(float(stress[0]), mean)
+            self.assertAlmostEqual(float(shear[0]), means[wall])
 
 
 if __name__ == "__main__":
