@@ -2,6 +2,7 @@
 """Words of Installation/Phases, the entries of their runs, and their rows on a page."""
 import html
 import unittest
+from typing import Any
 
 from test_report import SUMMARY, WithPage, leave_run
 
