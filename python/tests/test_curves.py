@@ -129,5 +129,13 @@ class Gradients(unittest.TestCase):
         np.testing.assert_allclose(shares, [0.5, 0.4, 0.0, 0.0])
 
 
+class WayDown(unittest.TestCase):
+    """The rows of a way down."""
+
+    def test_rows_that_rest_are_left_out(self) -> None:
+        position = np.array([0.0, 1.0, 1.0, 0.5, 2.0])
+        self.assertEqual(curves.way_down(position).tolist(), [0, 1, 4])
+
+
 if __name__ == "__main__":
     unittest.main()
