@@ -16,7 +16,7 @@ from caisson.disk import InputError
 from caisson.design.cone_estimates import REFERENCE, RESISTANCE, Estimate
 from caisson.design.correlations import DENSITY, STRENGTH
 from caisson.design.expression import value_at
-from caisson.design.ground import behavior_of, ground_of, kinds_of
+from caisson.design.ground import behavior_of, ground_of, kinds_of, porosity_of
 from made_up_cone import HEAD, WithFiles, options
 
 
@@ -390,6 +390,18 @@ class Above(WithFiles):
             InputError, "begins at 1.5 m, below the 1.2 m that"
         ):
             interpretation.interpret(self.path, options(), 1.2)
+
+
+class Porosity(unittest.TestCase):
+    """By the unit weight in water and of the wet soil."""
+
+    def test_by_hand(self) -> None:
+        """Half of the volume is grains of 2650 kg/m3: 8.09 kN/m3 in water."""
+        grains, water = 2650 * 9.81, 1000 * 9.81
+        weight = 0.5 * (grains - water) / 1e3
+        self.assertAlmostEqual(porosity_of(weight, 2650, False), 0.5, places=6)
+        wet = weight + water / 1e3
+        self.assertAlmostEqual(porosity_of(wet, 2650, True), 0.5, places=6)
 
 
 if __name__ == "__main__":
