@@ -61,6 +61,12 @@ def between(layers: Sequence[Layer], top: float, bottom: float) -> np.ndarray:
     return np.maximum(np.minimum(bottoms, bottom) - np.maximum(tops, top), 0.0)
 
 
+def vertical_stress(layers: Sequence[Layer], h: float) -> float:
+    """Return the effective vertical stress at rest (Pa)."""
+    weights = np.array([layer.unit_weight for layer in layers])
+    return float(weights @ between(layers, 0.0, h))
+
+
 def adhesion(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
     """Return that of the inner wall over the area inside (Pa)."""
     stresses = [layer.inner_adhesion for layer in layers]
@@ -154,10 +160,9 @@ def lift(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
     bottom = bottom_of_clay(layers, h)
     if np.isnan(bottom):
         return nan
-    weights = [layer.unit_weight for layer in layers]
     strengths = [layer.strength for layer in layers]
     below = 4 / skirt.inner_diameter * float(strengths @ between(layers, h, bottom))
-    weight = float(weights @ between(layers, 0.0, bottom))
+    weight = vertical_stress(layers, bottom)
     return weight + adhesion(skirt, layers, min(h, bottom)) + below
 
 

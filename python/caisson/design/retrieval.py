@@ -25,19 +25,14 @@ import numpy as np
 
 from caisson.design.clay import Layer, strength_at, tip_layer
 from caisson.design.cone import Skirt
-from caisson.design.plug_stability import between, reverse_bearing
-from caisson.design.seepage import pressure_factor
+from caisson.design.plug_stability import reverse_bearing, vertical_stress
+from caisson.design.sealing import grout_pressure
+from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.shell import Wall
 
 PLUG, FRACTURE = "plug pushed out", "ground cracks beside the tip"
 OUTWARD, HOOP = "piping outside", "wall yields in rings"
 MATERIAL_FACTOR = 1.15
-
-
-def vertical_stress(layers: Sequence[Layer], h: float) -> float:
-    """Return the effective vertical stress at rest (Pa)."""
-    weights = np.array([layer.unit_weight for layer in layers])
-    return float(weights @ between(layers, 0.0, h))
 
 
 def has_clay(layers: Sequence[Layer], h: float) -> bool:
@@ -59,7 +54,9 @@ def outward(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
     there is clay along the wall."""
     if has_clay(layers, h):
         return nan
-    return vertical_stress(layers, h) / pressure_factor(h / skirt.outer_diameter)
+    diameter = skirt.outer_diameter
+    inside = houlsby_byrne(vertical_stress(layers, h) / h, h, diameter)
+    return grout_pressure(inside, pressure_factor(h / diameter))
 
 
 def hoop(wall: Wall) -> float:
