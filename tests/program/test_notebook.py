@@ -77,7 +77,7 @@ class Functions(ProgramTest):
                     write_page("own", rate=rate)
             with self.assertRaisesRegex(caisson.InputError, "None is no path"):
                 write_scene(nothing, **sizes)
-            with self.assertRaisesRegex(caisson.InputError, "is a file: name a dir"):
+            with self.assertRaisesRegex(caisson.InputError, "own.prm is no dir"):
                 caisson.cpt(ROOT / "prm/cpt_example.csv", "own.prm")
             with self.assertRaisesRegex(caisson.InputError, "own.prm exists"):
                 write_scene("own.prm", sand="dense", **sizes)

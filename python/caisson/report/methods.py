@@ -312,6 +312,8 @@ def walls_of(run: Results, h: float) -> reasons.Walls | None:
         return None  # the suction is in the stress on the inner wall
     rows &= table["time_s"] == table["time_s"][rows][-1]
     rows &= table["vertical_stress_at_rest_Pa"] > 0
+    if not all(table[f"{side}_area_m2"][rows].sum() > 0 for side in ("inner", "outer")):
+        return None  # no wall is in the ground yet
     means = []
     for side in ("inner", "outer"):
         area = table[f"{side}_area_m2"][rows]
