@@ -242,6 +242,7 @@ class Sand(Scene):
     def test_forces_and_suction(self) -> None:
         """The mean of all cases of three methods, the least and the most of them."""
         run, at = self.scene(SAND, weight=1.25e6), np.array([2.0, 5.0, 8.0])
+        suctions = suction_methods.answers_of(run.site, at).suctions
         for estimate, member in run.estimates.items():
             assert member.by_hand is not None
 
@@ -261,11 +262,27 @@ class Sand(Scene):
                 for column, part in zip(by_hand.COLUMNS, expected):
                     self.assertAlmostEqual(found[column][i] / part, 1, places=3)
                 s = suction_in_sand(h, expected, 1.25e6)
+                if estimate == "high":  # as the table of methods has it
+                    s = max(s, suctions[suction_methods.HIGH][i])
                 if s > 0:
                     ratio = found["required_suction_Pa"][i] / s
                     self.assertAlmostEqual(ratio, 1, places=3, msg=estimate)
             rest = bisected(lambda h: float(parts(h).sum()), 1.25e6)
             self.assertAlmostEqual(self.rest_of(member), rest, places=3)
+
+    def test_piping_in_the_high_case(self) -> None:
+        """High resistance ends where Houlsby & Byrne find none below piping."""
+        run = self.scene({**SAND, "friction_angle_deg": 38.0}, weight=0.5e6)
+        needed = suction_methods.answers_of(run.site, np.array([END])).suctions
+        self.assertTrue(np.isnan(needed[suction_methods.HIGH][0]))
+        high = run.estimates["high"]
+        assert high.by_hand is not None
+        s = high.by_hand(np.array([END]))["required_suction_Pa"][0]
+        piping = 10e3 * END / (1 - (0.45 - 0.36 * (1 - exp(-END / D / 0.48))))
+        self.assertGreaterEqual(s, piping * (1 - 1e-9))
+        end = outcome.end_of(high)
+        assert end is not None
+        self.assertLess(end[0], END)
 
     def test_flow(self) -> None:
         """k (1 - a) s A / (gamma_w h), and s over gamma' h / (1 - a)."""

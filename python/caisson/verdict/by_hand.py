@@ -14,6 +14,9 @@ takes from tip Q and inner friction F_i what Senders & Randolph say, else nothin
 
     s = (R - W) / (A + (Q + F_i) / s_cr),  R = Q + F_i + F_o,  or  s = (R - W) / A.
 
+High resistance takes no less than the high case of Houlsby & Byrne by their own flow:
+where no suction below piping suffices for them, it ends there.
+
 Half of the wall in the soil lifts the plug while the weight pushes it, and all of it
 under suction (assumed); that the sand loosens is left out. By Darcy, with the
 gradient of Houlsby & Byrne, k (1 - a) s A / (gamma_w h) seeps through the plug.
@@ -196,7 +199,24 @@ class ByHand(Results):
         """Return the required suction [n] (Pa), below 0 where the weight suffices."""
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
         critical, _ = suction_methods.flow_above_clay(self.site, depth)
-        return suction_of(forces, self.weight, area, critical)
+        found = suction_of(forces, self.weight, area, critical)
+        if self.estimate != HIGH or self.byrne is None or self.sand_end < self.end:
+            return found
+        return np.maximum(found, self.most_by_byrne(depth))
+
+    def most_by_byrne(self, depth: np.ndarray) -> np.ndarray:
+        """Return what Houlsby & Byrne require in their high case [n] (Pa), and the
+        suction of piping where none below it suffices."""
+        assert self.byrne is not None
+        case = self.byrne.by_name[suction_methods.CASES[suction_methods.HIGH]]
+        ratio, found = self.byrne.permeability_ratio, []
+        for h in map(float, depth):
+            needed = suction.required_suction(
+                case.caisson, self.weight, h, case.enhanced, ratio
+            )
+            piping = suction.piping_suction(case.caisson, h, ratio)
+            found.append(piping if np.isnan(needed) else needed)
+        return np.array(found)
 
     def heave_at(self, depth: np.ndarray) -> np.ndarray:
         """Return the heave of the plug [n] (m), by the wall that goes into it."""
