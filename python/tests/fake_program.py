@@ -89,7 +89,7 @@ def main() -> int:
     if points := os.environ.get("FAKE_PROGRAM_POINTS"):
         print(f"  points     {points}")
     print(
-        "  duration   about 1.5 to 4.5 min on one core: at the speed of the first steps"
+        "  duration   about 1.5 to 4.5 min on one core: by the speed of the first steps"
     )
     return 0
 

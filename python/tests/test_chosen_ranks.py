@@ -20,7 +20,7 @@ from caisson.runner import environment, mpi_command, size_in
 VALID = """jack.prm is valid
   grid       57 x 97 cells, axisymmetric
   points     36504 at the start, and about 73000 at the end by splitting
-  duration   about 2.9 to 8.7 min on one core: at the speed of the first steps"""
+  duration   about 2.9 to 8.7 min on one core: by the speed of the first steps"""
 
 
 class WithMpirun(unittest.TestCase):

@@ -119,11 +119,14 @@ namespace CaissonMPM
   }
 
   double
-  TimeStep::growth_of_step(const double stress_over_inertia) const
+  TimeStep::growth_of_step(const double stress_over_inertia,
+                           const double growth_of_speed) const
   {
-    return fixed_step ?
-             1. :
-             std::sqrt(inertia_for(stress_over_inertia) / inertia_at_tip_);
+    if (fixed_step)
+      return 1.;
+    const double inertia =
+      tolerance ? inertia_for(stress_over_inertia) / inertia_at_tip_ : 1.;
+    return std::sqrt(inertia) / growth_of_speed;
   }
 
   std::string

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A scene that is far too large is refused at once, with the reason."""
+"""A scene that is far too large is refused at once, with the reason; of others the number
+of steps is known in advance."""
+import re
 import resource
 import unittest
 
-from program import BAD_INPUT, Entries, ProgramTest, user_scene
+from program import BAD_INPUT, HERE, SUCCESS, Entries, ProgramTest, summary, user_scene
 
 # words of the message, entries
 TOO_MANY_CELLS: tuple[tuple[list[str], Entries], ...] = (
@@ -69,6 +71,41 @@ class Limits(ProgramTest):
         for words, entries in (TOO_MANY_CELLS[1], TOO_MANY_POINTS[0]):
             with self.subTest(**entries):
                 self.check(words, entries, "--output-directory", directory)
+
+
+class Steps(ProgramTest):
+    """How many are expected, before a run and of one that is made."""
+
+    def expected(self, *words: object, entries: Entries = {}) -> float:
+        """Return the number that --validate says."""
+        said = self.run_program(SUCCESS, *words, "--validate", entries=entries)
+        found = re.search(r"^ *steps +about (\d+)", said, re.M)
+        assert found is not None, said
+        return float(found[1])
+
+    def test_sand_that_stiffens_under_a_tip(self) -> None:
+        """Dense sand, whose first steps are 1.5 times as long as the others."""
+        path, scene = self.directory(), HERE / "materials/jack_density.prm"
+        self.run_program(SUCCESS, scene, "--output-directory", path)
+        made = summary(path)["steps"]
+        self.assertLess(abs(self.expected(scene) / made - 1), 0.25)
+
+    def test_stiffer_layer(self) -> None:
+        """Waves of twice the speed take steps of half the length, over half of the way."""
+        entries: Entries = {
+            "Time/Inertia tolerance": "none",
+            "Time/Mass scaling": 25,
+            "Time/End penetration": 2.5,
+        }
+        one = self.expected(user_scene("jack_coarse"), entries=entries)
+        entries |= {
+            "Soil/Number of layers": 2,
+            "Soil/Layer 2/Like layer": 1,
+            "Soil/Layer 2/Top depth": 1.5,
+            "Soil/Layer 2/Youngs modulus": 20e6,
+        }
+        two = self.expected(user_scene("jack_coarse"), entries=entries)
+        self.assertAlmostEqual(two / one, 1.5, delta=0.05)
 
 
 if __name__ == "__main__":

@@ -156,10 +156,11 @@ namespace CaissonMPM
     double
     inertia_for(const double stress_over_inertia) const;
 
-    /** How much longer the step is once this is the stress over the inertia at
-     * the tip, with a tolerance and all else the same. */
+    /** How much longer the step is once waves are so many times as fast, and
+     * with a tolerance this is the stress over the inertia at the tip. */
     double
-    growth_of_step(const double stress_over_inertia) const;
+    growth_of_step(const double stress_over_inertia,
+                   const double growth_of_speed) const;
 
     /** A step over the limit that the soil would have without its water, with
      * the limit that was found last. The water of undrained soil shortens the

@@ -27,12 +27,10 @@ namespace CaissonMPM
     double seconds_per_step = 0.;
     /** Why the first steps fail; empty where they do not. */
     std::string failure;
-    /** Whether the soil grows stiffer with its stress, and the step shorter. */
-    bool stiffens = false;
     /** Whether points are split where the mesh is fine. */
     bool splits = false;
     /** Return the least and the most time of the processor that the run may
-     * take (s): at the speed of the first steps, and with what slows runs. */
+     * take (s): 1.5 times less and more than the likely one. */
     std::pair<double, double>
     seconds() const;
     /** What would make the run shorter, in words. */

@@ -149,6 +149,11 @@ namespace CaissonMPM
      * Units: m/s. */
     double
     wave_speed(const unsigned int material) const;
+    /** Return the speed of compression waves under the tip once the body has
+     * travelled so far, or the present one in soil that stiffens, whichever is
+     * larger. Units: m; m/s. */
+    double
+    wave_speed_under_tip(const double travel) const;
     /** Return the largest work of a rank over the mean of all. @p costs
      * [n_global_cells] are used of the cells of this rank. Collective. */
     double
