@@ -13,7 +13,7 @@ from caisson.paths import SCENES, short
 from lab.paths import LAB
 
 KINDS = study_command.KINDS | {
-    "error bar": "caisson.error.error_bar",
+    "error bar": "caisson.error_bars.bar_study",
     "verification": "lab.verification",
     "validation": "lab.validation",
     "accuracy": "lab.verification.accuracy",

@@ -23,8 +23,8 @@ from caisson.results import ResultsError
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
 from caisson import disk
-from caisson.error.error_bar import refinement_of
-from caisson.error.mesh_error import mesh_error
+from caisson.error_bars.bar_study import refinement_of
+from caisson.error_bars.mesh_error import mesh_error
 from lab.curves import relative_error
 from lab.verification import find_check
 

@@ -21,7 +21,7 @@ from caisson.runs import How, StudyRun, make, survey
 from caisson.study import Options, Reader, Study, StudyError, file_name, read_toml
 
 # those of users; the laboratory has more
-KINDS = {"parameters": "caisson.parameters", "park": "caisson.commands.park_study"}
+KINDS = {"parameters": "caisson.uncertain", "park": "caisson.commands.park_study"}
 
 
 def whole_number(text: str) -> int:

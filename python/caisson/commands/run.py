@@ -119,8 +119,8 @@ def options_for_error(
     """Return the options of the program with which the scene has the error that is
     wanted, and its error bar. The runs for it go beside the output directory. Raises
     RunError, StudyError and ArgumentTypeError."""
-    from caisson.error import wanted
-    from caisson.error.command import seconds_of
+    from caisson.error_bars import wanted
+    from caisson.error_bars.command import seconds_of
 
     scene, *more = options.arguments
     if more and more[0] != "--output-directory":
@@ -139,12 +139,12 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     """Draw the pictures, write the report and say whether it works; the results do not
     need them. error_bar: of the run, None for that beside the scene; in_full: say all
     of it, and not only where the report is."""
-    from caisson import error_bounds, plot, report
-    from caisson.report import band, verdict
+    from caisson import run_error_bar, plot, report
+    from caisson.report import low_and_high, verdict
     from caisson.results import Results
     from caisson.verdict import run_review
 
-    error_bounds.adopt(directory, error_bar)
+    run_error_bar.adopt(directory, error_bar)
     run = Results(directory)
     verdict.keep(run)
     for picture in plot.draw(directory):
@@ -155,7 +155,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     lines = [
         *(f"warning: {text}" for text in said),
         *verdict.lines_of(run),
-        band.sentence_of(run),
+        low_and_high.sentence_of(run),
     ]
     for line in filter(None, lines if in_full else []):
         print(line)

@@ -15,9 +15,9 @@ import numpy as np
 from scipy import stats
 from scipy.stats import qmc
 
-from caisson.parameters.distributions import is_number
-from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
-from caisson.parameters.formula import FormulaError
+from caisson.uncertain.distributions import is_number
+from caisson.uncertain.entry import Parameter, Sample, Value, read_all, text_of
+from caisson.uncertain.formula import FormulaError
 from caisson.runner import Run, RunError
 from caisson.study import StudyError, file_name
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, error_bounds
+from caisson import curves, run_error_bar
 from caisson.evaluation import rest_of_run
-from caisson.parameters.entry import Parameter, Sample, read_all
-from caisson.parameters.sampling import numbers_of, sampling_of
+from caisson.uncertain.entry import Parameter, Sample, read_all
+from caisson.uncertain.sampling import numbers_of, sampling_of
 from caisson.results import ResultsError, Table, read_table
 from caisson.runs import COMPLETE, FAILED, StudyRun
 from caisson.study import Study, StudyError
@@ -234,13 +234,13 @@ class Outcomes:
         """Return how far the truth may lie below and above [2, n_depths], by the error
         bar beside the scene, for its numerics; None where there is none. values: of
         what is observed."""
-        every = error_bounds.QUANTITIES.values()
+        every = run_error_bar.QUANTITIES.values()
         named = [q for q in every if q.column() == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not named:
             return None
         try:
-            bar = read_table(error_bounds.beside(outcome.run.run.scene))
+            bar = read_table(run_error_bar.beside(outcome.run.run.scene))
             sides = [bar[named[0].bar_column(side)] for side in ("below", "above")]
         except ResultsError:
             return None

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from caisson import table
-from caisson.parameters import effects, surface
-from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import (
+from caisson.uncertain import effects, surface
+from caisson.uncertain.entry import text_of
+from caisson.uncertain.outcome import (
     DEPTH,
     Outcome,
     Outcomes,
@@ -18,8 +18,8 @@ from caisson.parameters.outcome import (
     unit_of,
     words_of,
 )
-from caisson.parameters.sampling import LATIN, ONE
-from caisson.parameters.surface import Spread, Surfaces
+from caisson.uncertain.sampling import LATIN, ONE
+from caisson.uncertain.surface import Spread, Surfaces
 
 MOST_WARNINGS = 6  # that are printed
 RANKS = (

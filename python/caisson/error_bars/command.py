@@ -20,15 +20,15 @@ from typing import Any
 
 import numpy as np
 
-from caisson import disk, error_bounds, study_command
+from caisson import disk, run_error_bar, study_command
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
 from caisson.runner import Entries, Run, RunError, Status, read_parameters
 from caisson.runs import How, StudyRun, make, survey
 from caisson.study import Options, Study, StudyError
-from caisson.error import error_bar
-from caisson.error.windows import NUMBERS, Window, windows_of, write_means
+from caisson.error_bars import bar_study
+from caisson.error_bars.windows import NUMBERS, Window, windows_of, write_means
 
 UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
@@ -435,7 +435,7 @@ def advise(plan: Plan, study: Study) -> None:
             "The budget allowed one window: its error stands for the whole way. More"
             " --budget gives more windows."
         )
-    if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
+    if plan.output.resolve() != run_error_bar.beside(plan.scene).resolve():
         print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
     if plan.next:
         cost = duration(plan.seconds * plan.next**3)
@@ -458,7 +458,7 @@ def main(arguments: argparse.Namespace) -> int:
     plan = Plan(
         scene,
         arguments.results or RESULTS / "error_bar" / scene.stem,
-        arguments.output or error_bounds.beside(scene.resolve()),
+        arguments.output or run_error_bar.beside(scene.resolve()),
         arguments.budget,
         arguments.whole,
         arguments.program,
@@ -483,6 +483,6 @@ def main(arguments: argparse.Namespace) -> int:
     plan.execute(study.runs, how)
     set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
-        error_bar.evaluate([study], Options(), 0)
+        bar_study.evaluate([study], Options(), 0)
     advise(plan, study)
     return 0

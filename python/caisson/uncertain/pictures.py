@@ -9,11 +9,11 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.parameters import effects
-from caisson.parameters.effects import Effect
-from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
-from caisson.parameters.sampling import BASE, LATIN, ONE
+from caisson.uncertain import effects
+from caisson.uncertain.effects import Effect
+from caisson.uncertain.entry import text_of
+from caisson.uncertain.outcome import Outcome, Outcomes, title_of, unit_of, words_of
+from caisson.uncertain.sampling import BASE, LATIN, ONE
 from caisson import disk
 from caisson.plot.small import over_depth, with_note, write_beside
 

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from caisson.parameters.distributions import (
+from caisson.uncertain.distributions import (
     ALL_KEYS,
     Distribution,
     DistributionError,
     is_number,
     require,
 )
-from caisson.parameters.formula import Formula, FormulaError
+from caisson.uncertain.formula import Formula, FormulaError
 from caisson.paths import distinct_ends
 from caisson.runner import Entries
 from caisson.study import StudyError
