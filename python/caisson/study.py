@@ -234,22 +234,16 @@ class Reader:
         name = "_".join(parts)
         directory = self.options.results / file_name(study["id"]) / file_name(name)
         settings = {k: v for k, v in {**study, **run}.items() if k not in STUDY_KEYS}
-        return StudyRun(
-            study["id"],
-            name,
-            variant,
-            mesh,
-            run.get("seconds", study.get("seconds", 0)),
-            settings,
-            Run(
-                (self.file.parent / scene).resolve(),
-                entries,
-                directory.resolve(),
-                ranks=settings.get("ranks", 1),
-                binding=settings.get("binding", "none"),
-                program=self.options.program,
-            ),
+        made = Run(
+            (self.file.parent / scene).resolve(),
+            entries,
+            directory.resolve(),
+            ranks=settings.get("ranks", 1),
+            binding=settings.get("binding", "none"),
+            program=self.options.program,
         )
+        seconds = run.get("seconds", study.get("seconds", 0))
+        return StudyRun(study["id"], name, made, settings, variant, mesh, seconds)
 
 
 @disk.reads

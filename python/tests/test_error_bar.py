@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from synthetic import write_run
 
-from caisson import curves, run_error_bar
+from caisson import curves, run_error_bar, study_command
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
@@ -325,10 +325,8 @@ class Plan(unittest.TestCase):
             patch = unittest.mock.patch.object(plan, "run", of_plan)
             patch.start()
             self.addCleanup(patch.stop)
-            plan.size = plan.size_of_scene()
-            self.assertEqual(plan.size, Size(9, 5, 1.0))
-            plan.keep_size()
-            self.assertEqual(plan.size_of_scene(), plan.size)
+            for _ in range(2):
+                self.assertEqual(plan.size_of_scene(), Size(9, 5, 1.0))
             run.key = "another"
             self.assertEqual(plan.size_of_scene().seconds, 6)
             (plan.results / command.SIZE).write_text("[", encoding="utf-8")
@@ -339,7 +337,7 @@ class Plan(unittest.TestCase):
         known = {"is_complete.return_value": False, "restarts": False}
         calls = [unittest.mock.Mock(**known) for _ in "abc"]
         calls[1].execute.side_effect = RunError("a window ended early")
-        runs = [StudyRun("s", "", "", "", 9 - i, {}, c) for i, c in enumerate(calls)]
+        runs = [StudyRun("s", "", c, seconds=9 - i) for i, c in enumerate(calls)]
         for call in calls:
             call.completion_record.return_value = {"wall_s": 1, "status": 0}
         with contextlib.redirect_stdout(io.StringIO()):
@@ -518,7 +516,6 @@ class RunsOfWindows(unittest.TestCase):
         self.parts_of = unittest.mock.Mock()
         for patch in (
             unittest.mock.patch.object(self.plan, "parts_of", self.parts_of),
-            unittest.mock.patch.object(self.plan, "keep_size"),
             unittest.mock.patch.object(windows, "query", return_value=""),
         ):
             patch.start()
@@ -528,14 +525,19 @@ class RunsOfWindows(unittest.TestCase):
         """Let the windows end in this way; return them."""
         place = self.whole.run.directory
         parts = [Part(place / str(i), status) for i, status in enumerate(statuses)]
-        runs = [StudyRun("s", p.directory.name, "", "", 1, {}, p) for p in parts]
+        known: dict[str, Any] = {"seconds": 1, "size": Size(1)}
+        runs = [StudyRun("s", p.directory.name, p, **known) for p in parts]
         self.parts_of.return_value = runs
         return parts
 
-    def execute(self, again: bool = False) -> None:
+    def execute(self, **changed: Any) -> int | None:
         """Make the runs of the plan."""
+        options = argparse.Namespace(
+            **{**vars(study_command.ALL), "jobs": 1, **changed}
+        )
+        study = Study("s", "s", self.plan.scene, [self.whole])
         with contextlib.redirect_stdout(io.StringIO()):
-            self.plan.execute([self.whole], How(again, jobs=1))
+            return self.plan.run_missing(study, options)
 
     def test_again(self) -> None:
         """What is missing runs; a window with a result is repeated with --again only,
@@ -547,6 +549,18 @@ class RunsOfWindows(unittest.TestCase):
         self.assertEqual(self.whole.results.summary["wall_time_s"], 4.0)
         self.execute(again=True)
         self.assertEqual((first.calls, second.calls), (2, 2))
+
+    def test_part(self) -> None:
+        """A job of an array makes its windows, and the means wait for all of them."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        self.assertEqual(self.execute(part=(2, 2)), 0)
+        self.assertEqual((first.calls, second.calls), (0, 1))
+        self.assertFalse((self.whole.run.directory / "history.csv").exists())
+        with self.assertRaisesRegex(StudyError, "not run"):
+            self.execute(evaluate=True)
+        self.assertEqual(self.execute(part=(1, 2)), 0)
+        self.assertEqual(self.execute(evaluate=True), None)
+        self.assertEqual(self.whole.results.summary["wall_time_s"], 4.0)
 
     def test_a_window_that_breaks_off(self) -> None:
         """It is no result, also when the command is given again; the message names the

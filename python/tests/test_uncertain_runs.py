@@ -209,7 +209,7 @@ class Commands(WithFiles):
         run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
         (self.path / "run.json").write_text('{"ranks": 3}', encoding="utf-8")
         run.restarts = True
-        of_study = runs.StudyRun("s", "", "", "", 0, {}, run)
+        of_study = runs.StudyRun("s", "", run)
         with mock.patch.object(run, "command", side_effect=RuntimeError) as command:
             self.assertRaises(RuntimeError, of_study.execute, True, None, 1)
         command.assert_called_once_with(3)

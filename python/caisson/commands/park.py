@@ -25,19 +25,25 @@ the latter after all of them; or the workers of Dask take the runs, with --dask
 tcp://HOST:8786.
 """
 import argparse
+import json
 import re
+import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from caisson import disk, study_command
+from caisson.band import ESTIMATES, member_of
 from caisson.commands import park_rows, park_study
+from caisson.commands.park_rows import Position
 from caisson.disk import InputError
 from caisson.paths import RESULTS, short
-from caisson.study import file_name, read_toml
+from caisson.runner import Run
+from caisson.runs import StudyRun
+from caisson.study import file_name
 from caisson.suggest import percent
 from caisson.suggest.sizes import LEVELS
 
-STUDY = "park.toml"
+KNOWN = "positions.json"  # what the scenes rest on, by the name of a position
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,15 +55,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--check", action="store_true", help="write the scenes, and run nothing")
     study_command.add_running_arguments(parser)
-    parser.set_defaults(only="", quick=False, list=False, again=False)
-
-
-def known_in(file: Path) -> dict[str, Any]:
-    """Return what the scenes of the positions of an earlier call rest on, by name."""
-    if not file.is_file():
-        return {}
-    runs = read_toml(file).get("runs", [])
-    return {run["position"]["name"]: run["position"] for run in runs}
 
 
 def cost_of(name: str, file: Path) -> str:
@@ -71,36 +68,60 @@ def cost_of(name: str, file: Path) -> str:
     return f"{name}: {how_long}, {warnings}: {short(file)}"
 
 
-def prepare(table: Path, error: int, folder: Path) -> Path:
-    """Write the scenes of a table and their study into a folder, as far as they are not
-    there; return the study. Raises InputError."""
-    positions, study = park_rows.read(table, error), folder / STUDY
+def prepare(table: Path, error: int, folder: Path) -> list[Position]:
+    """Write the scenes of a table into a folder, as far as they are not there; return
+    its positions. Raises InputError."""
+    positions, known = park_rows.read(table, error), folder / KNOWN
     wrong = park_rows.wrong_names(table, positions)
     if wrong:
         raise InputError("\n".join(wrong))
     disk.claim(folder, table, "give another folder by --out DIR")
-    for name in (STUDY, park_study.PAGE, park_study.TABLE, park_study.PICTURE):
+    for name in (KNOWN, park_study.PAGE, park_study.TABLE, park_study.PICTURE):
         disk.refuse_input(folder / name)
-    known, scenes = known_in(study), folder / "scenes"
+    try:
+        before = json.loads(disk.read_text(known))
+    except (InputError, ValueError):  # there is none, or a broken one
+        before = {}
+    records = {p.name: park_rows.record_of(table, p) for p in positions}
+    scenes = folder / "scenes"
     new = [
         p
         for p in positions
-        if known.get(p.name) != park_rows.record_of(table, p)
+        if before.get(p.name) != records[p.name]
         or not (scenes / f"{file_name(p.name)}.prm").is_file()
     ]
     park_rows.write_scenes(table, new, scenes)
+    disk.write(known, json.dumps(records, indent=1))
     print(f"positions: {len(positions)}, of which new or changed: {len(new)}")
     for position in positions:
         print(cost_of(position.name, scenes / f"{file_name(position.name)}.txt"))
-    return disk.write(study, park_rows.study_of(table, positions, folder))
+    return positions
+
+
+def runs_of(position: Position, folder: Path, program: Path) -> Iterator[StudyRun]:
+    """Yield the run of a position, and those of its low and high estimate."""
+    best = folder / "scenes" / f"{file_name(position.name)}.prm"
+    for estimate in ESTIMATES:
+        if (scene := member_of(best, estimate)).is_file():
+            place = folder / "runs" / scene.stem
+            run = Run(scene.resolve(), directory=place.resolve(), program=program)
+            known = {"position": position.name, "estimate": estimate}
+            yield StudyRun("runs", scene.stem, run, known)
 
 
 def main(options: argparse.Namespace) -> int:
     """Write scenes, run what is missing, and write the overview."""
     folder: Path = options.out or RESULTS / "park" / file_name(options.positions.stem)
-    study = prepare(options.positions, options.error, folder)
+    begin, positions = time.monotonic(), prepare(
+        options.positions, options.error, folder
+    )
     if options.check:
-        print(f"park: {short(study)}")
+        print(f"park: {short(folder / 'scenes')}")
         return 0
-    options.file, options.results = study, folder
-    return study_command.main(options)
+    program = options.program.resolve()
+    runs = [run for p in positions for run in runs_of(p, folder, program)]
+    status = study_command.run_missing(runs, options)
+    if status is not None:
+        return status
+    minutes = (time.monotonic() - begin) / 60
+    return park_study.evaluate(options.positions.name, runs, folder, minutes)

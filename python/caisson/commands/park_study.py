@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Studies of kind "park": a run for each position, as `caisson park` writes them.
+"""What has become of the positions of a park: each run gets its page, and
+overview.html, overview.csv and overview.png show all of them, the worst first.
 
-Keys of a run beside the usual ones: position, the cells of its row in the table, and
-estimate: low, best or high, of a band. Each run gets its page, and overview.html,
-overview.csv and overview.png show all positions, the worst first.
+The settings of a run are its position, by name, and estimate: low, best or high.
 """
 import concurrent.futures
 import math
@@ -24,13 +23,9 @@ from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.runner import Run
 from caisson.runs import COMPLETE, StudyRun
-from caisson.study import Options, Study
 from caisson.table import digits, write_csv
 from caisson.template import template
 
-NAME = "park"
-STUDY_KEYS = set[str]()
-RUN_KEYS = {"position", "estimate"}
 HERE = Path(__file__).parent
 PAGE, TABLE, PICTURE = "overview.html", "overview.csv", "overview.png"
 COLORS = ("#2166ac", "#d95f02", "#1b9e77", "#7570b3", "#a6761d", "#e7298a", "#666666")
@@ -86,7 +81,7 @@ def row_of(run: StudyRun, folder: Path) -> Row:
     status, why = run.outcome
     page = run.run.directory / report.NAME
     link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
-    name = run.settings.get("position", {}).get("name", run.name)
+    name = run.settings["position"]
     if status != COMPLETE:
         text = ": ".join(filter(None, (status, disk.one_line(why))))
         said = f"No result ({text})."
@@ -163,21 +158,20 @@ def write_table(path: Path, rows: Sequence[Row]) -> Path:
     return write_csv(path, heads, cells)
 
 
-def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
+def evaluate(title: str, runs: Sequence[StudyRun], folder: Path, minutes: float) -> int:
     """Write pages and overview; return 1 where a position has no result."""
-    folder, runs = options.results, [run for study in studies for run in study.runs]
     done = [run.run.directory for run in runs if run.outcome[0] == COMPLETE]
     with concurrent.futures.ProcessPoolExecutor(cores()) as pool:
         for trouble in filter(None, pool.map(page_of, done)):
             print(trouble)
-    best = [run for run in runs if run.settings.get("estimate", BEST) == BEST]
+    best = [run for run in runs if run.settings["estimate"] == BEST]
     rows = sorted((row_of(run, folder) for run in best), key=lambda row: row.rank)
     complete = [row for row in rows if row.is_complete]
     write_table(folder / TABLE, rows)
     draw(folder / PICTURE, rows)
     css = Path(report.__file__).parent / "page.css"
     text = template(HERE / "overview.html.jinja", digits=digits).render(
-        title=studies[0].title,
+        title=disk.one_line(title),
         rows=rows,
         complete=len(complete),
         feasible=sum(not row.utilization >= 1 for row in complete),

@@ -60,7 +60,7 @@ def runs_of(best: Path, entries: dict[str, str]) -> dict[str, StudyRun]:
     for estimate, scene in scenes_of(best).items():
         place = member_of(directory, estimate).resolve()
         run = Run(scene.resolve(), entries, place)
-        found[estimate] = StudyRun("run:", scene.stem, "", "", 0, {}, run)
+        found[estimate] = StudyRun("run:", scene.stem, run)
     return found
 
 

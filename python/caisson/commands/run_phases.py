@@ -88,7 +88,7 @@ class Chain:
         entries = {**self.given, **more}
         run = Run(self.scene, entries, directory, ranks=self.ranks or 1)
         settings = {"ranks": self.ranks} if self.ranks else {}
-        return StudyRun("run:", name, "", "", 0, settings, run)
+        return StudyRun("run:", name, run, settings)
 
     def refuse_way(self) -> None:
         """Refuse phases that go where the mesh of the scene does not, before anything

@@ -25,7 +25,7 @@ from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
 from caisson.runner import Entries, Run, RunError, Status, read_parameters
-from caisson.runs import How, StudyRun, make, survey
+from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
 from caisson.error_bars import bar_study
 from caisson.error_bars.windows import NUMBERS, Window, windows_of, write_means
@@ -78,8 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--output", type=Path, metavar="CSV", help=text)
     add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
-    add("--again", action="store_true", help="repeat also runs that are complete")
-    study_command.add_machine_arguments(parser)
+    study_command.add_running_arguments(parser)
     text = "directory of the runs, default: results/error_bar/FILE"
     add("--results", type=Path, help=text)
 
@@ -179,7 +178,6 @@ class Plan:
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
-            self.keep_size()  # so that the budget of this message is enough
             raise StudyError(
                 f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
@@ -252,9 +250,9 @@ class Plan:
         earlier call has found it, so that the same budget allows the same runs, or as
         the program says. It does not where its first steps took no time that it could
         measure."""
-        run = self.run(DEFAULT, {}).run
+        run, file = self.run(DEFAULT, {}).run, self.results / SIZE
         try:
-            found = json.loads((self.results / SIZE).read_text("utf-8"))
+            found = json.loads(file.read_text("utf-8"))
             if found.pop("key") == run.key:
                 return Size(**found)
         except (OSError, ValueError, TypeError, KeyError, AttributeError):
@@ -262,15 +260,11 @@ class Plan:
         for _ in range(3):
             size = run.validate()
             if size.seconds:
+                disk.make_directory(self.results)
+                content = {"key": run.key, **dataclasses.asdict(size)}
+                disk.write(file, json.dumps(content))
                 return size
         raise StudyError("the time of the scene is not known; repeat the command")
-
-    def keep_size(self) -> None:
-        """Write the size of the scene for later calls."""
-        self.results.mkdir(parents=True, exist_ok=True)
-        key = self.run(DEFAULT, {}).run.key
-        content = {"key": key, **dataclasses.asdict(self.size)}
-        disk.write(self.results / SIZE, json.dumps(content))
 
     def sized(self, r: float, cost: float = 1.0) -> Size:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
@@ -289,7 +283,7 @@ class Plan:
         directory = (self.results / name.replace(" ", "_")).resolve()
         run = Run(self.scene, {**QUIET, **entries}, directory, program=self.program)
         known = {"windows": windows}
-        return StudyRun(self.scene.stem, name, "", "", 0, known, run, size=size)
+        return StudyRun(self.scene.stem, name, run, known, size=size)
 
     def parts_of(self, run: StudyRun) -> list[StudyRun]:
         """Return the runs that are made for a run: of its windows, or itself."""
@@ -386,24 +380,26 @@ class Plan:
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
 
-    def execute(self, runs: list[StudyRun], how: How = How()) -> None:
-        """Run what is not complete. Raises StudyError where a run has no result, or a
-        window does not reach its depth."""
-        self.keep_size()
-        parts = {run.name: self.parts_of(run) for run in runs}
+    def run_missing(self, study: Study, options: argparse.Namespace) -> int | None:
+        """Make what is not complete, and write the means of windows; return the exit
+        status of a part of the runs, else None. Raises StudyError where a run has no
+        result, or a window does not reach its depth."""
+        parts = {run.name: self.parts_of(run) for run in study.runs}
         every = [part for of_run in parts.values() for part in of_run]
-        to_do = survey(every, how.again, resumes=True)
-        make(to_do, dataclasses.replace(how, needs_all=True))
+        status = study_command.run_missing(every, options, needs_all=True)
+        if status is not None:
+            return status
         if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
-            raise StudyError(f"{cause.name}: {cause.trouble}")
-        for run in runs:
+            raise StudyError(f"{cause.name}: {cause.trouble or cause.outcome[0]}")
+        for run in study.runs:
             if windows := run.settings["windows"]:
                 for part in parts[run.name]:
                     if part.status != Status.SUCCESS:
                         raise StudyError(f"{part.name} ended early, see {part.log}")
                 found = [part.results for part in parts[run.name]]
                 write_means(run.run, windows, self.depths, found)
+        return None
 
 
 def set_depths(study: Study, windowed: Sequence[float]) -> None:
@@ -474,13 +470,13 @@ def main(arguments: argparse.Namespace) -> int:
     if arguments.list:
         return 0
     parts = (part for run in study.runs for part in plan.parts_of(run))
-    is_kept = not arguments.overwrite and plan.output.exists()
+    is_kept = not (arguments.overwrite or arguments.part) and plan.output.exists()
     if is_kept and not all(part.run.is_complete() for part in parts):
         raise StudyError(
             f"{plan.output} exists. Choose --output, or replace it by --overwrite"
         )
-    how = How(arguments.again, arguments.jobs, arguments.dask)
-    plan.execute(study.runs, how)
+    if (status := plan.run_missing(study, arguments)) is not None:
+        return status
     set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
         bar_study.evaluate([study], Options(), 0)

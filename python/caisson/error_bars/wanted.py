@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import run_error_bar
+from caisson import run_error_bar, study_command
 from caisson.error_bars import command, bar_study
 from caisson.progress import duration
 from caisson.study import Options, Study, StudyError
@@ -92,7 +92,7 @@ def mesh_for(
         left -= cost
         names[r] = f"refinement {r:g}"
         study = plan.study(names)
-        plan.execute(study.runs)
+        plan.run_missing(study, study_command.ALL)
         if len(names) < 2:
             continue
         study.run(names[r]).name = command.DEFAULT  # the finest one
