@@ -35,7 +35,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, disk, table
+from caisson import curves, table
 from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
@@ -202,13 +202,11 @@ def write_file(
     base = study.run("default")
     columns = file_columns(study, depths, bars, terms)
     of = "forces and suction" if len(bars) > len(FORCES) else "forces"
-    lines = [
-        f"# Errors of the {of} of {base.run.scene.name}, by caisson error-bar",
-        f"# fingerprint: {base.results.summary['fingerprint']}",
-        ",".join(columns),
-        *map(",".join, zip(*columns.values())),
+    remarks = [
+        f"Errors of the {of} of {base.run.scene.name}, by caisson error-bar",
+        f"fingerprint: {base.results.summary['fingerprint']}",
     ]
-    disk.write(path, "\n".join(lines) + "\n")
+    table.write_csv(path, list(columns), list(zip(*columns.values())), remarks)
 
 
 def minutes(run: StudyRun) -> str:
