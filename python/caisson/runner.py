@@ -16,11 +16,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
 from caisson import disk
-from caisson.disk import InputError
+from caisson.disk import InputError, is_locked
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts

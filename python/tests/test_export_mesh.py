@@ -12,7 +12,6 @@ from scipy.spatial import cKDTree
 
 from caisson.export import decks
 from caisson.export.gmsh import read_gmsh
-from caisson.export.laws import youngs_modulus
 from caisson.export.mesh import (
     default_window,
     lattice,
@@ -23,7 +22,7 @@ from caisson.export.mesh import (
     with_sets,
 )
 from caisson.export.springs import shear_modulus
-from caisson.export.state import Wall
+from caisson.export.state import Wall, youngs_modulus
 from caisson.results import ResultsError
 
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from caisson import disk
 from caisson.export.exported import Exported
+from caisson.export.state import POISSON
 from caisson.units import GRAVITY
 from caisson.export.text import TOTAL, about
 from caisson.template import template
 
-POISSON = 0.3  # of the elastic soil in the files, which stands for the user's
 # elements, and the points of the wedge or brick into which CalculiX expands them
 TRIANGLE, QUADRILATERAL = ("CAX3", 3, 2), ("CAX4", 4, 8)
 

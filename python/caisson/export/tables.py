@@ -8,7 +8,7 @@ import numpy as np
 from caisson.table import write_csv
 from caisson import disk
 from caisson.export.exported import Exported
-from caisson.export.interpolate import Values
+from caisson.export.interpolate import Values, interpolate
 from caisson.export.state import STRESS, State
 from caisson.export.text import POINTS, about, about_state
 
@@ -26,10 +26,9 @@ def tensor(name: str, values: np.ndarray) -> Columns:
     return {f"{name}_{c}_Pa": values[:, i] for i, c in enumerate(STRESS)}
 
 
-def columns_of(
-    state: State, values: Values, stress: np.ndarray, z: np.ndarray
-) -> Columns:
+def columns_of(state: State, values: Values, z: np.ndarray) -> Columns:
     """Return stress, pore pressure, displacement and state variables at heights z."""
+    stress = values.stress
     result = tensor("stress", stress)
     before = state.at_rest(z)
     result["vertical_effective_stress_kPa"] = -stress[:, 1] / 1e3
@@ -44,9 +43,7 @@ def columns_of(
 
 def of_cells(state: Exported) -> Columns:
     """Return the values of the cells of a mesh."""
-    result = columns_of(
-        state.state, state.values, state.values.stress, state.mesh.centers[:, 1]
-    )
+    result = columns_of(state.state, state.values, state.mesh.centers[:, 1])
     result |= {"unit_weight_N_m3": state.unit_weight, "volume_m3": state.mesh.volumes}
     return result | tensor("scatter", state.values.scatter)
 
@@ -58,12 +55,12 @@ def write_cells(path: Path, state: Exported) -> None:
     write_table(path, about(state), numbers | place | of_cells(state))
 
 
-def write_points(path: Path, state: State, at: np.ndarray, values: Values) -> None:
-    """Write the interpolated values at points [n, 2]."""
-    columns = dict(zip(("r_m", "z_m"), at.T))
-    columns |= columns_of(state, values, values.stress, at[:, 1])
-    columns |= tensor("scatter", values.scatter)
-    write_table(path, [*about_state(state), POINTS], columns)
+def write_points(path: Path, state: State, at: np.ndarray) -> list[str]:
+    """Write the interpolated values at points [n, 2]; return what is said of them."""
+    values, said = interpolate(state, at), [*about_state(state), POINTS]
+    columns = dict(zip(("r_m", "z_m"), at.T)) | columns_of(state, values, at[:, 1])
+    write_table(path, said, columns | tensor("scatter", values.scatter))
+    return said
 
 
 def write_vtu(path: Path, state: Exported) -> None:

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from caisson.disk import is_locked
 from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
 from caisson.band import BEST
 from caisson.verdict import by_hand, installation, limits, outcome, retrieval
 from caisson.verdict import run_review, theory
-from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, ResultsError
