@@ -12,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
-from caisson.commands import run_band
+from caisson.commands import run_several
 from caisson.plot import soil_range
 from caisson.report import content, verdict
 from caisson.report.low_and_high import required_at
@@ -222,9 +222,9 @@ class Runs(unittest.TestCase):
     def test_refusals(self) -> None:
         """A line says what to do."""
         with self.assertRaisesRegex(RunError, "takes --set, --restart and --overwrite"):
-            run_band.options_of(["--restart", "--output-directory", "there"])
+            run_several.options_of(["--restart", "--output-directory", "there"])
         with self.assertRaisesRegex(RunError, "caisson suggest --spread, or --low"):
-            run_band.scenes_of(Path(__file__))
+            run_several.scenes_of(Path(__file__))
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ class Rest(unittest.TestCase):
             "required_suction_Pa": required,
             "suction_Pa": np.maximum(required, 0),
         }
-        run = Outcome("a", {}, COMPLETE, "", history, MagicMock(), None, False)
+        run = Outcome(MagicMock(), COMPLETE, "", history)
         self.assertGreater(abs((rest_of_run(history) or 0) - 1.5), 0.1)
         self.assertAlmostEqual(run.rest or 0, 1.5, delta=0.02)
         history["suction_Pa"] = np.zeros(251)

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from caisson import needed, ranks
 from caisson.command_line import Parser
-from caisson.commands import run_band, run_phases
+from caisson.commands import run_several
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
     RunError,
@@ -269,10 +269,10 @@ def main(options: argparse.Namespace) -> int:
                 f"--band takes --set, --restart and --overwrite, not {other}: each"
                 " scene has one core"
             )
-        return run_band.main(arguments, draw, reporting)
+        return run_several.run_band(arguments, draw, reporting)
     entries = entries_of(arguments)
     directory, stop_file = places_of(arguments, entries)
-    has_phases = bool(run_phases.asked_for(arguments, entries))
+    has_phases = bool(run_several.phases_asked_for(arguments, entries))
     error_bar = None
     if options.error and directory:  # else the program says what is wrong
         try:
@@ -283,7 +283,7 @@ def main(options: argparse.Namespace) -> int:
     if complaint := needed.complaint():
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
     if has_phases:
-        chain = run_phases.Chain(arguments, entries, options.ranks, error_bar)
+        chain = run_several.Chain(arguments, entries, options.ranks, error_bar)
         return chain.main(try_to_draw, reporting)
     n_ranks = options.ranks or choose_ranks(arguments)
     begin = time.time()

@@ -27,10 +27,10 @@ from caisson.ranks import Size
 from caisson.runner import Entries, Run, RunError, Status, read_parameters
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
+from caisson.units import SECONDS
 from caisson.error_bars import bar_study
 from caisson.error_bars.windows import NUMBERS, Window, windows_of, write_means
 
-UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
 DEFAULT = "default"  # the run that has the error bar
 SIZE = "size.json"  # of the scene, beside the runs
@@ -57,13 +57,13 @@ def seconds_of(text: str) -> float:
         raise argparse.ArgumentTypeError(
             f"{text!r} is not a duration such as 90s, 30min or 2h"
         )
-    return float(found[1]) * UNITS[found[2]]
+    return float(found[1]) * SECONDS[found[2]]
 
 
 def in_units(seconds: float) -> str:
     """Return a duration as seconds_of() reads it, rounded up."""
     unit = "s" if seconds < 60 else "min" if seconds < 5400 else "h"
-    return f"{math.ceil(seconds / UNITS[unit])}{unit}"
+    return f"{math.ceil(seconds / SECONDS[unit])}{unit}"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
