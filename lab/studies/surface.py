@@ -21,7 +21,7 @@ from caisson.uncertain.surface import NAMES, SHARES, Spread
 from caisson.study import Options, Study, StudyError
 
 NAME = "surface"
-STUDY_KEYS, RUN_KEYS = uncertain.STUDY_KEYS, uncertain.RUN_KEYS
+STUDY_KEYS = uncertain.STUDY_KEYS
 MOST = 0.05  # of a quantile of the many runs
 LACKS = 1e200  # in place of a result that a run lacks
 make_runs = runs_of

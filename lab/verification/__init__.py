@@ -40,7 +40,6 @@ from lab.verification import damped_wave
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
-RUN_KEYS = set[str]()
 ROW_KEYS = set(
     "check what run error asked order known_error known_order why error_bar quantity"
     " depth".split()

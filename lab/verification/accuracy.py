@@ -30,7 +30,6 @@ from lab.verification import find_check
 
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
-RUN_KEYS = set[str]()
 JOBS = 2  # runs at a time: more would take each other's memory and change the times
 ASKED = [0.01, 0.02, 0.03, 0.05, 0.1]
 DEFAULT, REFERENCE = "default", "reference"

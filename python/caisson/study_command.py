@@ -6,9 +6,9 @@ go to results/KIND. Runs that are complete there are not repeated while program,
 entries and ranks are the same.
 """
 import argparse
+import functools
 import importlib
 import re
-import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -94,9 +94,8 @@ def module_of(file: Path, kinds: Mapping[str, str] = KINDS) -> ModuleType:
 
 
 def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
-    """Return what reads a study of the kind of this module."""
-    make_runs = getattr(module, "make_runs", None)
-    return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
+    """Return what reads a study of a user of the kind of this module."""
+    return Reader(file, options, module.STUDY_KEYS, module.make_runs)
 
 
 def cost_of(study: Study) -> str:
@@ -116,8 +115,13 @@ def cost_of(study: Study) -> str:
     return text + (", by the speed of the first steps" if asked else "")
 
 
-def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
-    """Run and evaluate."""
+def studies_of(
+    arguments: argparse.Namespace,
+    kinds: Mapping[str, str] = KINDS,
+    reader: Callable[[Path, Options, ModuleType], Reader] = reader_of,
+) -> tuple[ModuleType, Options, list[Study]]:
+    """Return the module of a kind, the options and the studies that are asked for, or
+    none of them after a list of them. Raises StudyError."""
     module = module_of(arguments.file, kinds)
     options = Options(
         only=arguments.only,
@@ -125,39 +129,27 @@ def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int
         program=arguments.program.resolve(),
         results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
     )
-    studies = reader_of(arguments.file, options, module).studies()
+    studies = reader(arguments.file, options, module).studies()
     if not studies:
         raise StudyError(f"{arguments.file}: no study fits")
-    if arguments.list:
-        for study in studies:
-            n = len(study.runs)
-            text = f"{study.id}: {study.title}, {n} runs, {cost_of(study)}"
-            print(text, flush=True)
+    for study in studies if arguments.list else []:
+        n = len(study.runs)
+        print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
+    return module, options, [] if arguments.list else studies
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Run and evaluate."""
+    module, options, studies = studies_of(arguments)
+    if not studies:
         return 0
-    options.results.mkdir(parents=True, exist_ok=True)
-    if kinds is KINDS:  # of users, who may have several of one name
-        for study in studies:
-            way = "choose another --results or another id"
-            disk.claim(options.results / file_name(study.id), arguments.file, way)
-    if hasattr(module, "measure"):  # its runs take turns
-        if arguments.part:
-            raise StudyError(f"studies of kind {module.NAME!r} have no parts")
-        return int(module.measure(studies, options, arguments.evaluate))
-    begin, limit = time.monotonic(), getattr(module, "TIME_LIMIT", None)
-    arguments.jobs = arguments.jobs or getattr(module, "JOBS", None)
-    refuse = getattr(module, "refuse", lambda *_: None)
+    for study in studies:  # a user may have several of one name
+        way = "choose another --results or another id"
+        disk.claim(options.results / file_name(study.id), arguments.file, way)
     runs = [run for study in studies for run in study.runs]
-    status = run_missing(
-        runs,
-        arguments,
-        module.NAME in KINDS,
-        lambda to_do: refuse(studies, to_do),
-        time_limit=limit,
-    )
-    if status is None:
-        minutes = (time.monotonic() - begin) / 60
-        status = int(module.evaluate(studies, options, minutes))
-    return status
+    refuse = functools.partial(module.refuse, studies)
+    status = run_missing(runs, arguments, refuse=refuse)
+    return int(module.evaluate(studies, options, 0.0)) if status is None else status
 
 
 def run_missing(

@@ -17,10 +17,11 @@ from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
 from caisson.runs import How, StudyRun, make
-from caisson.study import Options, Reader, Study, StudyError
+from caisson.study import Options, Study, StudyError
 from caisson.error_bars import command, bar_study, windows
 from caisson.error_bars.mesh_error import mesh_error
 from lab import verification
+from lab.study import LabReader
 
 STUDY = """
 kind = "error bar"
@@ -70,7 +71,7 @@ class ErrorBar(unittest.TestCase):
         file = self.path / "study.toml"
         file.write_text(STUDY, encoding="utf-8")
         options = Options(results=self.path / "results")
-        (study,) = Reader(file, options, bar_study.STUDY_KEYS, set()).studies()
+        (study,) = LabReader(file, options, bar_study).studies()
         for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
             write_run(run.run.directory, synthetic(force, suction), summary)
@@ -232,7 +233,7 @@ class Similar(ErrorBar):
             encoding="utf-8",
         )
         options = Options(results=self.path / "results")
-        (study,) = Reader(file, options, bar_study.STUDY_KEYS, set()).studies()
+        (study,) = LabReader(file, options, bar_study).studies()
         for run, number in zip(study.runs, meshes.values()):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
             write_run(run.run.directory, synthetic(0.08 / number, None), summary)

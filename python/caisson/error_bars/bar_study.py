@@ -46,7 +46,6 @@ from caisson.error_bars.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"
 STUDY_KEYS = {"output", "depths", "errors"}
-RUN_KEYS = set[str]()
 ERROR_WINDOW = 0.5  # m
 LEAST = 0.01  # of a force: less is chance
 SIDES = ("below", "above")

@@ -41,7 +41,6 @@ NAME = "parameters"
 STUDY_KEYS = set(
     "parameters sampling samples seed correlations observe depths tornado_depth".split()
 )
-RUN_KEYS = {"sample"}
 make_runs = runs_of
 
 
