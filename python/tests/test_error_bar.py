@@ -326,8 +326,10 @@ class Plan(unittest.TestCase):
             patch = unittest.mock.patch.object(plan, "run", of_plan)
             patch.start()
             self.addCleanup(patch.stop)
-            for _ in range(2):
-                self.assertEqual(plan.size_of_scene(), Size(9, 5, 1.0))
+            plan.size = plan.size_of_scene()
+            self.assertEqual(plan.size, Size(9, 5, 1.0))
+            plan.keep_size()
+            self.assertEqual(plan.size_of_scene(), plan.size)
             run.key = "another"
             self.assertEqual(plan.size_of_scene().seconds, 6)
             (plan.results / command.SIZE).write_text("[", encoding="utf-8")
@@ -517,6 +519,7 @@ class RunsOfWindows(unittest.TestCase):
         self.parts_of = unittest.mock.Mock()
         for patch in (
             unittest.mock.patch.object(self.plan, "parts_of", self.parts_of),
+            unittest.mock.patch.object(self.plan, "keep_size"),
             unittest.mock.patch.object(windows, "query", return_value=""),
         ):
             patch.start()

@@ -178,6 +178,7 @@ class Plan:
         self.next = next((r for r in known if r not in self.chosen), 0.0)
         if len(self.chosen) < 2:
             needed = self.seconds * (1 + self.cost_of_changes + self.next**3)
+            self.keep_size()  # so that the budget of this message is enough
             raise StudyError(
                 f"{duration(self.budget)} is not enough for a second mesh. Set --budget"
                 f" {in_units(needed)}, or more cells across the wall: the coarser"
@@ -250,9 +251,9 @@ class Plan:
         earlier call has found it, so that the same budget allows the same runs, or as
         the program says. It does not where its first steps took no time that it could
         measure."""
-        run, file = self.run(DEFAULT, {}).run, self.results / SIZE
+        run = self.run(DEFAULT, {}).run
         try:
-            found = json.loads(file.read_text("utf-8"))
+            found = json.loads((self.results / SIZE).read_text("utf-8"))
             if found.pop("key") == run.key:
                 return Size(**found)
         except (OSError, ValueError, TypeError, KeyError, AttributeError):
@@ -260,11 +261,15 @@ class Plan:
         for _ in range(3):
             size = run.validate()
             if size.seconds:
-                disk.make_directory(self.results)
-                content = {"key": run.key, **dataclasses.asdict(size)}
-                disk.write(file, json.dumps(content))
                 return size
         raise StudyError("the time of the scene is not known; repeat the command")
+
+    def keep_size(self) -> None:
+        """Write the size of the scene for later calls."""
+        disk.make_directory(self.results)
+        key = self.run(DEFAULT, {}).run.key
+        content = {"key": key, **dataclasses.asdict(self.size)}
+        disk.write(self.results / SIZE, json.dumps(content))
 
     def sized(self, r: float, cost: float = 1.0) -> Size:
         """Return the size of a run on a mesh, where a step costs more by a factor."""
@@ -384,6 +389,7 @@ class Plan:
         """Make what is not complete, and write the means of windows; return the exit
         status of a part of the runs, else None. Raises StudyError where a run has no
         result, or a window does not reach its depth."""
+        self.keep_size()
         parts = {run.name: self.parts_of(run) for run in study.runs}
         every = [part for of_run in parts.values() for part in of_run]
         status = study_command.run_missing(every, options, needs_all=True)
