@@ -104,6 +104,11 @@ class StudyRun:
         return COMPLETE, ""
 
     @property
+    def words(self) -> str:
+        """How it ended, and why if it failed, in a line."""
+        return disk.one_line(": ".join(filter(None, self.outcome)))
+
+    @property
     def ranks_before(self) -> int | None:
         """The ranks of the run that has left the checkpoint: with others, the soil
         beneath a wall may slip to the other side."""

@@ -181,5 +181,5 @@ def run_missing(
     done = len(runs) - len(missing)
     print(f"part {number} of {of}: {done} of {len(runs)} runs are complete")
     for run in missing:
-        print(f"{run.study} {run.name}: {run.trouble or 'failed, see its log'}")
+        print(f"{run.study} {run.name}: {run.words}")
     return 1 if missing else 0

@@ -78,13 +78,11 @@ def page_of(directory: Path) -> str:
 
 def row_of(run: StudyRun, folder: Path) -> Row:
     """Return what has become of a position."""
-    status, why = run.outcome
     page = run.run.directory / report.NAME
     link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
     name = run.settings["position"]
-    if status != COMPLETE:
-        text = ": ".join(filter(None, (status, disk.one_line(why))))
-        said = f"No result ({text})."
+    if run.outcome[0] != COMPLETE:
+        said = f"No result ({run.words})."
         return Row(name, verdict=said, page=link, is_complete=False)
     return with_numbers(Row(name, page=link), run.results)
 

@@ -397,7 +397,7 @@ class Plan:
             return status
         if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
-            raise StudyError(f"{cause.name}: {cause.trouble or cause.outcome[0]}")
+            raise StudyError(f"{cause.name}: {cause.words}")
         for run in study.runs:
             if windows := run.settings["windows"]:
                 for part in parts[run.name]:
