@@ -19,7 +19,7 @@ from caisson.paths import short
 from caisson.results import ResultsError
 from caisson import disk
 from caisson.design.quantity import length, number
-from caisson.export import decks, spring_files, tables
+from caisson.export import files, spring_files
 from caisson.export.exported import Exported, exported
 from caisson.export.gmsh import read_gmsh
 from caisson.export.mesh import Mesh, Window, check_spacing, default_window, regular
@@ -31,10 +31,10 @@ from caisson.export.text import about
 Writer = Callable[[Path, Exported], None]
 # form: end of the file, and what writes it
 FORMS: dict[str, tuple[str, Writer]] = {
-    "csv": (".csv", tables.write_cells),
-    "vtu": (".vtu", tables.write_vtu),
-    "abaqus": ("_abaqus.inp", partial(decks.write, program="abaqus")),
-    "calculix": ("_calculix.inp", partial(decks.write, program="calculix")),
+    "csv": (".csv", files.write_cells),
+    "vtu": (".vtu", files.write_vtu),
+    "abaqus": ("_abaqus.inp", partial(files.write_deck, program="abaqus")),
+    "calculix": ("_calculix.inp", partial(files.write_deck, program="calculix")),
 }
 SPRINGS = "tz"
 WHERE = ("penetration", "time", "mesh", "points", "spacing", "radius", "depth")
@@ -131,7 +131,7 @@ def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
         if options.to != "csv":
             raise ResultsError(f"--points is for --to csv, not {options.to}")
         at = read_places(options.points, state)
-        return path, tables.write_points(path, state, at)
+        return path, files.write_points(path, state, at)
     found = exported(state, mesh_of(state, options))
     write(path, found)
     return path, about(found)

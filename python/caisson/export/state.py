@@ -13,7 +13,7 @@ STRESS = ("rr", "zz", "tt", "rz")  # the order of the components, in frames too
 # fields that other ones contain, or that are no state of the soil
 LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m"}
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
-# these follow from the exported stress (tables.py)
+# these follow from the exported stress (files.py)
 LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
 TOLERANCE = 1e-6  # m
 # Young's modulus over the norm of the stress, of soil whose law has none
