@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs a study of the laboratory and evaluates it: tables, pictures and a verdict.
 
-The format of the file: the module caisson.study. Results, and the log of each run,
+The format of the file: the module lab.study. Results, and the log of each run,
 go to results/KIND. Runs that are complete there are not repeated while the program,
 the entries and the ranks are the same.
 """
 import argparse
+import functools
+import time
 from pathlib import Path
+from types import ModuleType
 
 from caisson import study_command
 from caisson.paths import SCENES, short
+from caisson.study import Options, Reader, StudyError
 from lab.paths import LAB
+from lab.study import LabReader
 
 KINDS = study_command.KINDS | {
-    "error bar": "caisson.error.error_bar",
+    "error bar": "caisson.error_bars.bar_study",
     "verification": "lab.verification",
     "validation": "lab.validation",
     "accuracy": "lab.verification.accuracy",
@@ -53,6 +58,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.epilog = f"The study is {short(study)}."
 
 
-def main(options: argparse.Namespace) -> int:
+def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
+    """Return what reads a study of a user or of the laboratory."""
+    return LabReader(file, options, module)
+
+
+def main(arguments: argparse.Namespace) -> int:
     """Run and evaluate."""
-    return study_command.main(options, KINDS)
+    module, options, studies = study_command.studies_of(arguments, KINDS, reader_of)
+    if not studies:
+        return 0
+    options.results.mkdir(parents=True, exist_ok=True)
+    if hasattr(module, "measure"):  # its runs take turns
+        if arguments.part:
+            raise StudyError(f"studies of kind {module.NAME!r} have no parts")
+        return int(module.measure(studies, options, arguments.evaluate))
+    begin, limit = time.monotonic(), getattr(module, "TIME_LIMIT", None)
+    arguments.jobs = arguments.jobs or getattr(module, "JOBS", None)
+    runs = [run for study in studies for run in study.runs]
+    is_own, refuse = hasattr(module, "refuse"), lambda _: None
+    if is_own:
+        refuse = functools.partial(module.refuse, studies)
+    status = study_command.run_missing(
+        runs, arguments, is_own, refuse, time_limit=limit
+    )
+    if status is None:
+        minutes = (time.monotonic() - begin) / 60
+        status = int(module.evaluate(studies, options, minutes))
+    return status

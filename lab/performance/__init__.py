@@ -35,7 +35,6 @@ from lab.performance.report import Report
 
 NAME = "speed"
 STUDY_KEYS = set("repeats base steps points repetitions sizes".split())
-RUN_KEYS = set[str]()
 
 Studies = dict[str, Study]
 SECTIONS: dict[str, Callable[[Studies, Report], None]] = {

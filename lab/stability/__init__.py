@@ -30,7 +30,6 @@ from lab.checks import checks_of
 
 NAME = "stability"
 STUDY_KEYS = {"must_fail", "largest_residual", "largest_lean", "why"}
-RUN_KEYS = set[str]()
 TIME_LIMIT = 600.0  # s, of a run
 RESIDUAL = 0.01
 REASONS = re.compile("left the mesh|no longer finite|not finite|stability limit")

@@ -28,7 +28,6 @@ from lab import outcome
 
 NAME = "drainage"
 STUDY_KEYS = set("width velocity depths at_rest".split())
-RUN_KEYS = set[str]()
 DRAINED, UNDRAINED = "drained", "undrained"
 V50, POWER = 3.0, 1.0  # of the backbone curve, for cones
 COLUMNS = ["study", "run", "v D / c_v", "resistance (N)", "over drained", "backbone"]

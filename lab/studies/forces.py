@@ -12,7 +12,6 @@ from caisson.study import Options, Study
 
 NAME = "forces"
 STUDY_KEYS = {"depths"}
-RUN_KEYS = set[str]()
 
 
 def evaluate(studies: Sequence[Study], _: Options, __: float) -> int:

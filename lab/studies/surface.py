@@ -3,7 +3,7 @@
 
 The first study of the file has few runs, the second one many, of the same
 distributions. The quantiles of both are those of their response surface
-(caisson.parameters.surface); those of the many runs are also counted, where a run that
+(caisson.uncertain.surface); those of the many runs are also counted, where a run that
 does not reach a depth is above all others there. The keys of a study are those of kind
 "parameters". Fails where a quantile of the few runs differs by more than 5 % from that
 of the many.
@@ -13,15 +13,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from caisson import parameters, table
-from caisson.parameters import surface
-from caisson.parameters.outcome import Outcomes, unit_of, words_of
-from caisson.parameters.sampling import runs_of
-from caisson.parameters.surface import NAMES, SHARES, Spread
+from caisson import table, uncertain
+from caisson.uncertain import surface
+from caisson.uncertain.outcome import Outcomes, unit_of, words_of
+from caisson.uncertain.sampling import runs_of
+from caisson.uncertain.surface import NAMES, SHARES, Spread
 from caisson.study import Options, Study, StudyError
 
 NAME = "surface"
-STUDY_KEYS, RUN_KEYS = parameters.STUDY_KEYS, parameters.RUN_KEYS
+STUDY_KEYS = uncertain.STUDY_KEYS
 MOST = 0.05  # of a quantile of the many runs
 LACKS = 1e200  # in place of a result that a run lacks
 make_runs = runs_of

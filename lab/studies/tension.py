@@ -24,7 +24,6 @@ from .drainage import group_of
 
 NAME = "tension"
 STUDY_KEYS = set("width velocity".split())
-RUN_KEYS = set[str]()
 PARTS = {  # name: member of the largest pull
     "water beneath lid and tip": "water_N",
     "outer friction": "outer_friction_N",

@@ -24,7 +24,6 @@ from lab.validation.verdict import COLUMNS, Row
 
 NAME = "validation"
 STUDY_KEYS = {"compare", "measured"}
-RUN_KEYS = set[str]()
 # each is the module of this name in the folder of a case
 COMPARISONS = {
     "triaxial": "triaxial",

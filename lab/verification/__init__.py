@@ -18,7 +18,7 @@ Each problem is a study; a row of the table is one of its
 or states the half-width of the error bar of an installation, over the quantity itself:
 
     error_bar = "../jack_error_bar.csv"   # of a study of kind "error bar"
-    quantity = "tip"                      # as caisson.error_bounds names it
+    quantity = "tip"                      # as caisson.run_error_bar names it
     depth = 2                             # m
 """
 import math
@@ -27,12 +27,12 @@ from typing import Any
 
 import numpy as np
 
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.results import ResultsError, read_table
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
 from caisson.table import number
-from caisson.error import error_bar
+from caisson.error_bars import bar_study
 from lab import outcome
 from lab.checks import checks_of
 from lab.machine import machine
@@ -40,7 +40,6 @@ from lab.verification import damped_wave
 
 NAME = "verification"
 STUDY_KEYS = {"checks"}
-RUN_KEYS = set[str]()
 ROW_KEYS = set(
     "check what run error asked order known_error known_order why error_bar quantity"
     " depth".split()
@@ -115,10 +114,10 @@ def error_bar_row(row: Row, study: Study) -> Row:
     nearest = int(np.argmin(np.abs(bars["penetration_m"] - row["depth"])))
     if abs(bars["penetration_m"][nearest] - row["depth"]) > NEAR:
         raise StudyError(f"{path.name} has no depth {row['depth']} m")
-    quantity = error_bounds.QUANTITIES.get(row["quantity"])
+    quantity = run_error_bar.QUANTITIES.get(row["quantity"])
     if quantity is None or quantity.bar_column("below") not in bars:
         raise StudyError(f"{path.name} has no quantity {row['quantity']!r}")
-    bar = max(float(bars[quantity.bar_column(s)][nearest]) for s in error_bar.SIDES)
+    bar = max(float(bars[quantity.bar_column(s)][nearest]) for s in bar_study.SIDES)
     if not quantity.is_relative:
         bar /= abs(float(bars[quantity.column()][nearest]))
     return {

@@ -23,14 +23,13 @@ from caisson.results import ResultsError
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
 from caisson import disk
-from caisson.error.error_bar import refinement_of
-from caisson.error.mesh_error import mesh_error
+from caisson.error_bars.bar_study import refinement_of
+from caisson.error_bars.mesh_error import mesh_error
 from lab.curves import relative_error
 from lab.verification import find_check
 
 NAME = "accuracy"
 STUDY_KEYS = set("measure check column depths".split())
-RUN_KEYS = set[str]()
 JOBS = 2  # runs at a time: more would take each other's memory and change the times
 ASKED = [0.01, 0.02, 0.03, 0.05, 0.1]
 DEFAULT, REFERENCE = "default", "reference"

@@ -20,7 +20,7 @@ GROUPS: Groups = {
         ),
         "study": ("caisson.study_command", "run and evaluate many runs of a scene"),
         "park": ("caisson.commands.park", "run many positions, each with its page"),
-        "error-bar": ("caisson.error.command", "compute the error bar of a scene"),
+        "error-bar": ("caisson.error_bars.command", "compute the error bar of a scene"),
     },
     "results": {
         "plot": ("caisson.plot", "draw the pictures of runs"),

@@ -14,7 +14,7 @@ import os
 from pathlib import Path
 from typing import Any, NoReturn
 
-from caisson import disk, error_bounds
+from caisson import disk, run_error_bar
 from caisson import ranks as cores
 from caisson.__main__ import COMMANDS
 from caisson.command_line import Parser, paths_in
@@ -133,7 +133,7 @@ def error_bar(scene: str | Path, budget: str | None = None, **options: Any) -> P
         caisson.write_report("results/own")
     """
     found = call("error-bar", scene, budget=budget, **options)
-    return Path(found.output or error_bounds.beside(found.scene))
+    return Path(found.output or run_error_bar.beside(found.scene))
 
 
 def write_report(directory: str | Path, rate: float | None = None) -> Path:

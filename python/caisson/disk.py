@@ -212,6 +212,19 @@ def refuse_input(path: Path) -> None:
         )
 
 
+def is_locked(directory: Path) -> bool:
+    """Return whether a run computes in the directory; no, where the file system has no
+    locks."""
+    try:
+        with (directory / ".lock").open(encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:  # no such file, or no locks
+        return False
+    return False
+
+
 def _put_aside(path: Path) -> Path:
     """Move a file to the next earlier_N of its directory, that of this command where
     there is one; return its new path."""

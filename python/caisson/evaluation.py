@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from caisson import curves, error_bounds
+from caisson import curves, run_error_bar
 from caisson.results import Results, Table
 
 INTERVAL = 0.5  # m, between the depths
@@ -105,7 +105,7 @@ def at_depths(run: Results, at: np.ndarray | None = None) -> Table:
     if run.by_hand:
         return run.by_hand(at)
     means = {name: way.mean(name, at) for name in way.columns}
-    return {DEPTH: at, **means, **error_bounds.at_depths(run, at, means)}
+    return {DEPTH: at, **means, **run_error_bar.at_depths(run, at, means)}
 
 
 def rows_of(table: Table) -> list[dict[str, float]]:

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from caisson.results import Results
 from caisson.runner import Entries, RunError
+from caisson.units import SECONDS
 
 ENTRY = "Installation/Phases"
 END = "Time/End penetration"
@@ -29,9 +30,8 @@ LEAST_WAY, LARGEST_OVERSHOOT = 0.03, 1e-3  # of the diameter
 NUMBER = r"\d{1,6}(?:\.\d*)?"
 REST_RUN, LARGEST_SCALING = 5.0, 100.0  # s; as in prm/tension.prm
 RECORDS = 200  # rows of a phase
-UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 FORM = re.compile(
-    rf"(?:{REST} +(?P<time>{NUMBER}) *(?P<unit>{'|'.join(UNITS)})"
+    rf"(?:{REST} +(?P<time>{NUMBER}) *(?P<unit>{'|'.join(SECONDS)})"
     rf"|(?P<word>{'|'.join(list(SHARES)[1:])})(?: +to +(?P<depth>{NUMBER})(?: *m)?)?)"
 )
 KNOWN = (
@@ -58,7 +58,7 @@ def phase_of(text: str) -> Phase:
     if not (found := FORM.fullmatch(text)):
         raise RunError(f"{ENTRY}: {text!r} is no phase; known are {KNOWN}")
     if not found["word"]:
-        return Phase(text, REST, None, float(found["time"]) * UNITS[found["unit"]])
+        return Phase(text, REST, None, float(found["time"]) * SECONDS[found["unit"]])
     depth = None if found["depth"] is None else float(found["depth"])
     return Phase(text, found["word"], depth)
 

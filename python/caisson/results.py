@@ -14,8 +14,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from caisson import disk, paths, run_shape
-from caisson.lock import is_locked
-from caisson.disk import InputError
+from caisson.disk import InputError, is_locked
 from caisson.shown import Units, units_of
 
 Table = dict[str, np.ndarray]

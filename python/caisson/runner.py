@@ -16,11 +16,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.lock import is_locked
 from caisson.paths import PROGRAM, WORK
 from caisson.ranks import Size
+from caisson.units import SECONDS
 from caisson import disk
-from caisson.disk import InputError
+from caisson.disk import InputError, is_locked
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts
@@ -115,8 +115,9 @@ def size_in(output: str) -> Size:
     found = re.search(
         r"^ *duration +about ([\d.]+) to ([\d.]+) (s|min|h)\b", output, re.M
     )
-    unit = {"s": 1.0, "min": 60.0, "h": 3600.0}[found[3]] if found else 0.0
-    least, most = (float(found[i]) * unit if found else 0.0 for i in (1, 2))
+    least, most = (
+        float(found[i]) * SECONDS[found[3]] if found else 0.0 for i in (1, 2)
+    )
     return Size(int(points[1]) if points else 0, most, least)
 
 

@@ -10,7 +10,7 @@ and the ranks are the same (caisson.runner.Run).
 import concurrent.futures
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -40,11 +40,11 @@ class StudyRun:
 
     study: str  # its id
     name: str
-    variant: str
-    mesh: str
-    seconds: float
-    settings: dict[str, Any]
     run: Run
+    settings: dict[str, Any] = field(default_factory=dict)
+    variant: str = ""
+    mesh: str = ""
+    seconds: float = 0.0
     trouble: str | None = None
     size: Size = Size()
     is_stopped: bool = False  # by a stop file, say
@@ -102,6 +102,11 @@ class StudyRun:
         if record["status"] != Status.SUCCESS:
             return FAILED, self.last_words
         return COMPLETE, ""
+
+    @property
+    def words(self) -> str:
+        """How it ended, and why if it failed, in a line."""
+        return disk.one_line(": ".join(filter(None, self.outcome)))
 
     @property
     def ranks_before(self) -> int | None:
@@ -181,17 +186,18 @@ def survey(
     asks_all: bool = False,
 ) -> list[StudyRun]:
     """Return the runs that are not complete, or all of them again, the longest first,
-    with the sizes that are asked for: of a few long ones, which several ranks may make
-    faster, or of all. resumes: let those that were begun go on from their checkpoints,
-    and say it."""
+    with the sizes that are asked for where they are not known: of a few long ones,
+    which several ranks may make faster, or of all. resumes: let those that were begun
+    go on from their checkpoints, and say it."""
     with concurrent.futures.ThreadPoolExecutor(cores()) as pool:
         chosen = list(pool.map(lambda run: again or not run.run.is_complete(), runs))
         found = [run for run, is_chosen in zip(runs, chosen) if is_chosen]
         if resumes and not again:
             list(pool.map(lambda run: run.run.resume(), found))
         is_few = len(found) <= FEW * cores()
-        long = [r for r in found if is_few and r.seconds >= LONG and not r.size.points]
-        list(pool.map(StudyRun.query_size, found if asks_all else long))
+        unknown = [run for run in found if not run.size.points]
+        long = [run for run in unknown if is_few and run.seconds >= LONG]
+        list(pool.map(StudyRun.query_size, unknown if asks_all else long))
     for run in found:
         if run.run.restarts:
             print(f"{run.study} {run.name}: goes on from its checkpoint", flush=True)

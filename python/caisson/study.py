@@ -1,13 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Studies: many runs of scenes with entries changed, and what they are for.
+"""Studies: many runs of a scene with entries changed, and what they are for.
 
-All studies have one format. A file (TOML) says what it is for,
-
-    kind = "parameters"     # or one of the laboratory: verification, validation,
-                            # accuracy, error bar, stability, forces, drainage,
-                            # tension, speed
-
-and holds studies, or is one itself if it holds none (its id is then its name):
+A file (TOML) says what it is for, kind = "parameters", and holds studies, or is one
+itself if it holds none (its id is then its name):
 
     [[study]]
     id = "name"             # of its results: results/KIND/ID/RUN
@@ -18,35 +13,18 @@ and holds studies, or is one itself if it holds none (its id is then its name):
                             # Without it the program is asked
     quick = true            # taken with --quick; or a table of the keys that
                             # replace those of the study then
-    runs = [{...}]          # one run of the scene as it is, if left out
-    variants = ["name"]     # each run with each of these choices, "" being none;
-                            # a run may have its own list
-    meshes = {"name" = {"Section/Entry" = value}}   # ... and on each mesh
+    ranks = 4               # default: what is fastest for all runs; binding = "core"
+                            # or "none" (default)
     reference = {"Section/Entry" = value}   # one more run, called reference, of the
                             # scene with these entries
 
-A run has the keys
+The table `set` at the head of the file serves all studies. Entries of a run are set in
+the order file, study, run; the last one counts.
 
-    name        default: its number, from 0
-    scene, set, seconds     as above, for this run
-    h           size of a cell, for orders of convergence
-    ranks       default: what is fastest for all runs; binding = "core" or "none"
-                            # (default)
-    until       stops the run at this time of the scene (s), and
-    stop_after  after these seconds of stepping (kind "speed"); all four also for
-                all runs of a study
-
-Tables at the head of the file serve all studies: `set`, and [variants], which
-gives the choices their names: NAME = {"Section/Entry" = value}. Entries of a run
-are set in the order file, study, run, mesh, variant; the last one counts. The
-name of a run is made of its variant, mesh and own name, as far as it has them.
-
-A file that is one study takes all of its [variants].
-
-What a study is for takes further keys, of the study or its runs; the module of each
-kind says which (caisson.study_command and lab.study_command name it). A kind may make
-the runs of a study itself, from keys of its own. A key that is not known is an error,
-so that no misspelled one is left out in silence.
+The runs are made by the kind, from keys of its own, which its module names
+(caisson.study_command has the modules). A key that is not known is an error, so that no
+misspelled one is left out in silence. Studies of the laboratory may list their runs:
+lab.study.
 
 A run that is complete is not repeated while the program, all entries in effect
 and the ranks are the same (caisson.runner.Run). One of a user's study that was stopped
@@ -55,7 +33,7 @@ goes on from its checkpoint.
 import collections
 import re
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -66,17 +44,9 @@ from caisson.runs import StudyRun
 from caisson import disk
 from caisson.disk import InputError
 
-FILE_KEYS = {"kind", "set", "variants", "study"}
-STUDY_KEYS = set(
-    "id title scene set seconds quick runs variants meshes reference".split()
-)
-RUN_KEYS = set(
-    "name scene set seconds variants h ranks binding until stop_after".split()
-)
-SHARED_KEYS = set("h ranks binding until stop_after".split())
-
 # makes the runs, as lists of their keys, of a study's keys, scene and entries
 MakeRuns = Callable[[dict[str, Any], Run], list[dict[str, Any]]]
+REFERENCE = "reference"
 
 
 class StudyError(InputError):
@@ -115,29 +85,30 @@ class Options:
 class Reader:
     """Makes studies of a file."""
 
+    file_keys = {"kind", "set", "study"}
+    study_keys = set("id title scene set seconds quick reference".split())
+    shared_keys = {"ranks", "binding"}  # of the runs, too
+
     def __init__(
         self,
         file: Path,
         options: Options,
-        study_keys: set[str],
-        run_keys: set[str],
+        own_keys: set[str],
         make_runs: MakeRuns | None = None,
     ) -> None:
-        """study_keys, run_keys: of the kind, beside those that all have; make_runs:
-        where the kind makes the runs, which then are no key of the study."""
+        """own_keys: of a study of the kind, beside those that all have; make_runs:
+        makes the runs of a study."""
         self.file, self.options = file, options
-        self.study_keys, self.run_keys = study_keys, run_keys
-        self.make_runs = make_runs
+        self.known = self.study_keys | self.shared_keys | own_keys
+        self.own_keys, self.make_runs = own_keys, make_runs
         self.content = read_toml(file)
         self.set: Entries = self.content.get("set", {})
-        self.variants: dict[str, Entries] = {"default": {}}
-        self.variants |= self.content.get("variants", {})
 
     def studies(self) -> list[Study]:
         """Return the studies that are asked for. Raises StudyError."""
         content = dict(self.content)
         if "study" in content:
-            self.refuse_unknown(content, FILE_KEYS, "the file")
+            self.refuse_unknown(content, self.file_keys, "the file")
             tables = content["study"]
         else:
             one = {k: v for k, v in content.items() if k not in ("kind", "set")}
@@ -173,83 +144,49 @@ class Reader:
             raise StudyError(f"{self.file}: a study has no id, or not one line of text")
         if self.options.quick and isinstance(table["quick"], dict):
             table = {**table, **table["quick"]}
-        of = f"study {table['id']}"
-        known = STUDY_KEYS | SHARED_KEYS | self.study_keys
-        if self.make_runs is not None:
-            known -= {"runs", "variants", "meshes"}
-        self.refuse_unknown(table, known, of)
-        if self.make_runs is not None:
-            table = {**table, "runs": self.made_runs(table)}
-        runs = []
-        for number, run in enumerate(table.get("runs", [{}])):
-            self.refuse_unknown(run, RUN_KEYS | self.run_keys, f"a run of {of}")
-            runs += list(self.runs(table, {"name": str(number), **run}))
-        if "reference" in table:
-            entries = {**self.set, **table.get("set", {}), **table["reference"]}
-            runs.append(self.one_run(table, {}, "", "reference", entries))
-        keys = {k: v for k, v in table.items() if k in self.study_keys}
-        title = disk.one_line(str(table.get("title", table["id"])))
-        return Study(table["id"], title, self.file, runs, keys)
+        entries = {**self.set, **table.get("set", {})}
+        runs = self.runs_of(table, entries)
+        if REFERENCE in table:
+            entries = {**entries, **table[REFERENCE]}
+            runs.append(self.one_run(table, {}, REFERENCE, entries))
+        keys = {k: v for k, v in table.items() if k in self.own_keys}
+        title = disk.one_line(str(table.get("title", name)))
+        return Study(name, title, self.file, runs, keys)
 
-    def made_runs(self, study: dict[str, Any]) -> list[dict[str, Any]]:
-        """Return the runs that the kind makes for a study."""
-        entries = {**self.set, **study.get("set", {})}
-        scene = self.one_run(study, {}, "", "", entries).run
+    def runs_of(self, study: dict[str, Any], entries: Entries) -> list[StudyRun]:
+        """Return the runs that the kind makes for a study with these entries."""
+        self.refuse_unknown(study, self.known, f"study {study['id']}")
+        scene = self.one_run(study, {}, "", entries).run
         assert self.make_runs is not None
         try:
-            return self.make_runs(study, scene)
+            made = self.make_runs(study, scene)
         except StudyError as error:
             raise StudyError(f"{self.file}: study {study['id']}: {error}") from error
-
-    def runs(self, study: dict[str, Any], run: dict[str, Any]) -> Iterator[StudyRun]:
-        """Yield a run on each mesh with each variant."""
-        for variant in run.get("variants", study.get("variants", [""])):
-            if variant and variant not in self.variants:
-                raise StudyError(f"{self.file}: {study['id']}: no variant {variant!r}")
-            for mesh, on_mesh in study.get("meshes", {"": {}}).items():
-                entries = {
-                    **self.set,
-                    **study.get("set", {}),
-                    **run.get("set", {}),
-                    **on_mesh,
-                    **self.variants.get(variant, {}),
-                }
-                yield self.one_run(study, run, variant, mesh, entries)
+        return [
+            self.one_run(study, run, run["name"], {**entries, **run.get("set", {})})
+            for run in made
+        ]
 
     def one_run(
-        self,
-        study: dict[str, Any],
-        run: dict[str, Any],
-        variant: str,
-        mesh: str,
-        entries: Entries,
+        self, study: dict[str, Any], run: dict[str, Any], name: str, entries: Entries
     ) -> StudyRun:
         """Return one run with its directory."""
         scene = run.get("scene", study.get("scene"))
         if scene is None:
             raise StudyError(f"{self.file}: a run of {study['id']} has no scene")
-        parts = [part for part in (variant, mesh) if part]
-        if "runs" in study and "name" in run:
-            parts.append(run["name"])
-        name = "_".join(parts)
         directory = self.options.results / file_name(study["id"]) / file_name(name)
-        settings = {k: v for k, v in {**study, **run}.items() if k not in STUDY_KEYS}
-        return StudyRun(
-            study["id"],
-            name,
-            variant,
-            mesh,
-            run.get("seconds", study.get("seconds", 0)),
-            settings,
-            Run(
-                (self.file.parent / scene).resolve(),
-                entries,
-                directory.resolve(),
-                ranks=settings.get("ranks", 1),
-                binding=settings.get("binding", "none"),
-                program=self.options.program,
-            ),
+        both = {**study, **run}
+        settings = {k: v for k, v in both.items() if k not in self.study_keys}
+        made = Run(
+            (self.file.parent / scene).resolve(),
+            entries,
+            directory.resolve(),
+            ranks=settings.get("ranks", 1),
+            binding=settings.get("binding", "none"),
+            program=self.options.program,
         )
+        seconds = both.get("seconds", 0)
+        return StudyRun(study["id"], name, made, settings, seconds=seconds)
 
 
 @disk.reads

@@ -6,12 +6,13 @@ go to results/KIND. Runs that are complete there are not repeated while program,
 entries and ranks are the same.
 """
 import argparse
+import functools
 import importlib
 import re
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from caisson import disk, needed
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
@@ -21,7 +22,9 @@ from caisson.runs import How, StudyRun, make, survey
 from caisson.study import Options, Reader, Study, StudyError, file_name, read_toml
 
 # those of users; the laboratory has more
-KINDS = {"parameters": "caisson.parameters", "park": "caisson.commands.park_study"}
+KINDS = {"parameters": "caisson.uncertain"}
+# the options of add_running_arguments() of a call without any
+ALL = argparse.Namespace(again=False, evaluate=False, part=None, jobs=None, dask="")
 
 
 def whole_number(text: str) -> int:
@@ -59,7 +62,6 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     add("--only", type=pattern, default="", metavar="REGEX", help=text)
     add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
-    add("--again", action="store_true", help="repeat also runs that are complete")
     add("--results", type=Path, help="directory of the results")
     add_running_arguments(parser)
 
@@ -67,15 +69,10 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
 def add_running_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of which runs are made, and where."""
     add = parser.add_argument
+    add("--again", action="store_true", help="repeat also runs that are complete")
     add("--evaluate", action="store_true", help="evaluate what is there, run nothing")
     text = "run only the K-th of N parts, and evaluate nothing: for an array of jobs"
     add("--part", type=part_of, metavar="K/N", help=text)
-    add_machine_arguments(parser)
-
-
-def add_machine_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of where runs are made."""
-    add = parser.add_argument
     text = "runs at a time, default: what is fastest for all of them"
     add("--jobs", type=whole_number, metavar="N", help=text)
     text = "run on the workers of this scheduler of Dask, such as tcp://host:8786"
@@ -97,9 +94,8 @@ def module_of(file: Path, kinds: Mapping[str, str] = KINDS) -> ModuleType:
 
 
 def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
-    """Return what reads a study of the kind of this module."""
-    make_runs = getattr(module, "make_runs", None)
-    return Reader(file, options, module.STUDY_KEYS, module.RUN_KEYS, make_runs)
+    """Return what reads a study of a user of the kind of this module."""
+    return Reader(file, options, module.STUDY_KEYS, module.make_runs)
 
 
 def cost_of(study: Study) -> str:
@@ -119,8 +115,13 @@ def cost_of(study: Study) -> str:
     return text + (", by the speed of the first steps" if asked else "")
 
 
-def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int:
-    """Run and evaluate."""
+def studies_of(
+    arguments: argparse.Namespace,
+    kinds: Mapping[str, str] = KINDS,
+    reader: Callable[[Path, Options, ModuleType], Reader] = reader_of,
+) -> tuple[ModuleType, Options, list[Study]]:
+    """Return the module of a kind, the options and the studies that are asked for, or
+    none of them after a list of them. Raises StudyError."""
     module = module_of(arguments.file, kinds)
     options = Options(
         only=arguments.only,
@@ -128,67 +129,57 @@ def main(arguments: argparse.Namespace, kinds: Mapping[str, str] = KINDS) -> int
         program=arguments.program.resolve(),
         results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
     )
-    studies = reader_of(arguments.file, options, module).studies()
+    studies = reader(arguments.file, options, module).studies()
     if not studies:
         raise StudyError(f"{arguments.file}: no study fits")
-    if arguments.list:
-        for study in studies:
-            n = len(study.runs)
-            text = f"{study.id}: {study.title}, {n} runs, {cost_of(study)}"
-            print(text, flush=True)
+    for study in studies if arguments.list else []:
+        n = len(study.runs)
+        print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
+    return module, options, [] if arguments.list else studies
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """Run and evaluate."""
+    module, options, studies = studies_of(arguments)
+    if not studies:
         return 0
-    options.results.mkdir(parents=True, exist_ok=True)
-    if kinds is KINDS:  # of users, who may have several of one name
-        for study in studies:
-            way = "choose another --results or another id"
-            disk.claim(options.results / file_name(study.id), arguments.file, way)
-    return int(run_and_evaluate(module, studies, options, arguments))
+    for study in studies:  # a user may have several of one name
+        way = "choose another --results or another id"
+        disk.claim(options.results / file_name(study.id), arguments.file, way)
+    runs = [run for study in studies for run in study.runs]
+    refuse = functools.partial(module.refuse, studies)
+    status = run_missing(runs, arguments, refuse=refuse)
+    return int(module.evaluate(studies, options, 0.0)) if status is None else status
 
 
-def run_and_evaluate(
-    module: ModuleType,
-    studies: list[Study],
-    options: Options,
+def run_missing(
+    runs: Sequence[StudyRun],
     arguments: argparse.Namespace,
-) -> int:
-    """Run what is missing; return the status of the evaluation."""
-    begin = time.monotonic()
-    if hasattr(module, "measure"):  # its runs take turns
-        if arguments.part:
-            raise StudyError(f"studies of kind {module.NAME!r} have no parts")
-        return int(module.measure(studies, options, arguments.evaluate))
-    if not arguments.evaluate:
-        runs = make_missing(module, studies, arguments)
-        if arguments.part:
-            return report_part(runs, arguments)
-    minutes = (time.monotonic() - begin) / 60
-    return int(module.evaluate(studies, options, minutes))
+    is_own: bool = True,
+    refuse: Callable[[list[StudyRun]], None] = lambda _: None,
+    **how: Any,
+) -> int | None:
+    """Make the runs that are not complete, as the options of add_running_arguments()
+    say; return the exit status of a part, and None where there is to evaluate.
 
-
-def make_missing(
-    module: ModuleType, studies: list[Study], arguments: argparse.Namespace
-) -> list[StudyRun]:
-    """Make the runs that are not complete; return those of the part, or all. Raises
-    StudyError where the kind refuses one of them."""
-    runs, again = [run for study in studies for run in study.runs], arguments.again
-    is_own = module.NAME in KINDS
-    to_do = survey(runs, again, resumes=is_own, asks_all=is_own)
-    if hasattr(module, "refuse"):
-        module.refuse(studies, to_do)
+    is_own: of a user, so that all are checked first and go on from their checkpoints;
+    refuse: raises StudyError where one of those to do is refused; how: further keys of
+    How.
+    """
+    if arguments.evaluate:
+        return None
+    to_do = survey(runs, arguments.again, resumes=is_own, asks_all=is_own)
+    refuse(to_do)
     if arguments.part:
-        runs = runs[arguments.part[0] - 1 :: arguments.part[1]]
-    jobs = arguments.jobs or getattr(module, "JOBS", None)
-    limit = getattr(module, "TIME_LIMIT", None)
-    make([x for x in to_do if x in runs], How(again, jobs, arguments.dask, limit))
-    return runs
-
-
-def report_part(runs: Sequence[StudyRun], arguments: argparse.Namespace) -> int:
-    """Say what has become of the runs of a part; return 1 where one is missing."""
-    done = sum(run.status == Status.SUCCESS for run in runs)
-    number, of = arguments.part
+        number, of = arguments.part
+        runs = runs[number - 1 :: of]
+    chosen = [run for run in to_do if run in runs]
+    make(chosen, How(arguments.again, arguments.jobs, arguments.dask, **how))
+    if not arguments.part:
+        return None
+    missing = [run for run in runs if run.status != Status.SUCCESS]
+    done = len(runs) - len(missing)
     print(f"part {number} of {of}: {done} of {len(runs)} runs are complete")
-    for run in runs:
-        if run.status != Status.SUCCESS:
-            print(f"{run.study} {run.name}: {run.trouble or 'failed, see its log'}")
-    return 0 if done == len(runs) else 1
+    for run in missing:
+        print(f"{run.study} {run.name}: {run.words}")
+    return 1 if missing else 0

@@ -98,7 +98,7 @@ def write_csv(
     text = io.StringIO(newline="")
     text.writelines(f"{line}\n" for line in disk.remarks("#", remarks))
     cells = ([text_cell(value) for value in row] for row in [columns, *rows])
-    csv.writer(text).writerows(cells)
+    csv.writer(text, lineterminator="\n").writerows(cells)
     return disk.write(path, text.getvalue())
 
 

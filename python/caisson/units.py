@@ -25,6 +25,7 @@ UNITS = {
     "m": "m",
     "s": "s",
 }
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 NONE = "1"  # of counts, ratios and numbers of materials
 
 

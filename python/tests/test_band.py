@@ -12,13 +12,13 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
-from caisson.commands import run_band
-from caisson.plot import band as plotted
+from caisson.commands import run_several
+from caisson.plot import soil_range
 from caisson.report import content, verdict
-from caisson.report.band import required_at
+from caisson.report.low_and_high import required_at
 from caisson.results import Results
 from caisson.runner import RunError
-from caisson.suggest import band
+from caisson.suggest import low_and_high
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 
@@ -38,8 +38,8 @@ class Estimates(unittest.TestCase):
         default: dict[str, object] = {"low": [], "high": [], "spread": None}
         default["cpt"] = None
         options = argparse.Namespace(**{**default, **given})
-        band.check(options)
-        return band.of_texts(texts, KNOWN, "density", options)
+        low_and_high.check(options)
+        return low_and_high.of_texts(texts, KNOWN, "density", options)
 
     def test_only_what_differs(self) -> None:
         """The rest, also of other layers, is that of the best estimate; what is
@@ -58,9 +58,11 @@ class Estimates(unittest.TestCase):
         """At its points of 5 and 95 %, of words, numbers and expressions; a relative
         density is at most 1."""
         found = self.ends(SOIL, spread="Dr 20%, su 10%")
-        density = [float(found[x][0].value("Relative density")) for x in band.SIGNS]
+        density = [
+            float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS
+        ]
         self.assertEqual(density, [0.3355, 0.6645])
-        strength = [found[x][1].value("Cohesion") for x in band.SIGNS]
+        strength = [found[x][1].value("Cohesion") for x in low_and_high.SIGNS]
         words = [f"{factor}*(1000*(4 + 2*d))" for factor in (0.8355, 1.1645)]
         self.assertEqual(strength, words)
         dense = self.ends(["0: Dr = 90%"], spread="Dr 10%")
@@ -160,7 +162,7 @@ class Page(WithPage):
             ("required_suction_Pa", 10, 15),
             ("total_force_N", 1e3, 0),
         ):
-            depth, low, high = plotted.range_of(run, column) or [np.empty(0)] * 3
+            depth, low, high = soil_range.range_of(run, column) or [np.empty(0)] * 3
             self.assertAlmostEqual(depth[-1], 3.6, delta=0.02)
             expected = [
                 np.maximum(slope * factor * depth - by_weight, 0)
@@ -171,7 +173,7 @@ class Page(WithPage):
                 error = np.abs(values - known)[inner].max()
                 self.assertLess(error, 1e-2 * slope)
         axes = Figure().subplots()
-        self.assertEqual(len(plotted.draw(axes, run, "total_force_N", "total")), 2)
+        self.assertEqual(len(soil_range.draw(axes, run, "total_force_N", "total")), 2)
         _, curve = content.range_curve(run, "total_force_N", "total")
         self.assertTrue(curve["shade"])
 
@@ -196,7 +198,7 @@ class Page(WithPage):
         leave_run(member_of(run.directory, LOW), other)
         page = report.write(run.directory).read_text(encoding="utf-8")
         self.assertNotIn("low resistance", page)
-        self.assertEqual(plotted.range_of(run, "total_force_N"), None)
+        self.assertEqual(soil_range.range_of(run, "total_force_N"), None)
 
     def test_stopped(self) -> None:
         """A run that was stopped says nothing of its resistance."""
@@ -220,9 +222,9 @@ class Runs(unittest.TestCase):
     def test_refusals(self) -> None:
         """A line says what to do."""
         with self.assertRaisesRegex(RunError, "takes --set, --restart and --overwrite"):
-            run_band.options_of(["--restart", "--output-directory", "there"])
+            run_several.options_of(["--restart", "--output-directory", "there"])
         with self.assertRaisesRegex(RunError, "caisson suggest --spread, or --low"):
-            run_band.scenes_of(Path(__file__))
+            run_several.scenes_of(Path(__file__))
 
 
 if __name__ == "__main__":

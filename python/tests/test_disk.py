@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 import test_log
-import test_parameters_runs
+import test_uncertain_runs
 from made_up_state import Temporary, made_up
 from matplotlib.figure import Figure
 from test_band import KNOWN
@@ -28,7 +28,7 @@ from caisson.__main__ import GROUPS, main
 from caisson import disk
 from caisson.commands import park, park_rows
 from caisson.disk import InputError
-from caisson.error import error_bar
+from caisson.error_bars import bar_study
 from caisson.export.command import FORMS
 from caisson.paths import ROOT
 from caisson.study import Options
@@ -354,10 +354,10 @@ class Commands(Temporary):
 
     def test_studies(self) -> None:
         """study, and the evaluation of error-bar."""
-        study = test_parameters_runs.Commands()
+        study = test_uncertain_runs.Commands()
         study.path = self.path
         (self.path / "a.prm").touch()
-        study.write(test_parameters_runs.PHI + "values = [30, 34]")
+        study.write(test_uncertain_runs.PHI + "values = [30, 34]")
         study.study()
         for path in (self.path / "results/s").glob("*.*"):
             path.unlink()
@@ -373,7 +373,7 @@ class Commands(Temporary):
 
         def evaluate() -> str:
             with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as said:
-                error_bar.evaluate([made], Options(), 0)
+                bar_study.evaluate([made], Options(), 0)
             return said.getvalue()
 
         self.check(evaluate)

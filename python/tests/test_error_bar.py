@@ -12,15 +12,16 @@ from typing import Any
 import numpy as np
 from synthetic import write_run
 
-from caisson import curves, error_bounds
+from caisson import curves, run_error_bar, study_command
 from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
 from caisson.runs import How, StudyRun, make
-from caisson.study import Options, Reader, Study, StudyError
-from caisson.error import command, error_bar, windows
-from caisson.error.mesh_error import mesh_error
+from caisson.study import Options, Study, StudyError
+from caisson.error_bars import command, bar_study, windows
+from caisson.error_bars.mesh_error import mesh_error
 from lab import verification
+from lab.study import LabReader
 
 STUDY = """
 kind = "error bar"
@@ -47,7 +48,7 @@ def synthetic(force: float, suction: float | None) -> Table:
     larger by this amount (Pa) and zero at 2 m; None: drained."""
     depth = np.linspace(0.5, 3.5, 301)
     table = {"time_s": depth, "penetration_m": depth}
-    for quantity in error_bounds.FORCES:
+    for quantity in run_error_bar.FORCES:
         table[quantity.column()] = (1 + force) * 1e5 * depth
     if suction is not None:
         table["required_suction_Pa"] = SUCTION * (depth - 2) + suction
@@ -70,7 +71,7 @@ class ErrorBar(unittest.TestCase):
         file = self.path / "study.toml"
         file.write_text(STUDY, encoding="utf-8")
         options = Options(results=self.path / "results")
-        (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
+        (study,) = LabReader(file, options, bar_study).studies()
         for run, force, suction in zip(study.runs, (0, 0.03, -0.02), suctions):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
             write_run(run.run.directory, synthetic(force, suction), summary)
@@ -80,7 +81,7 @@ class ErrorBar(unittest.TestCase):
         """Return the file of the study, and what is printed with it."""
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
-            self.assertEqual(error_bar.evaluate([study], Options(), 0), 0)
+            self.assertEqual(bar_study.evaluate([study], Options(), 0), 0)
         return read_table(self.path / "bar.csv"), printed.getvalue()
 
     def test_half_widths(self) -> None:
@@ -89,7 +90,7 @@ class ErrorBar(unittest.TestCase):
         bars, printed = self.bars(self.study())
         self.assertEqual(len(bars["penetration_m"]), 21)
         for name in ("tip", "inner", "outer", "total"):
-            for side in error_bar.SIDES:
+            for side in bar_study.SIDES:
                 np.testing.assert_allclose(bars[f"{name}_{side}"], 0.05)
                 np.testing.assert_allclose(bars[f"{name}_mass_scaling_{side}"], 0.04)
         np.testing.assert_allclose(bars["required_suction_below_Pa"], 1000)
@@ -115,13 +116,13 @@ class ErrorBar(unittest.TestCase):
         study.keys["errors"][0]["depths"] = [1.0, 5.0]
         study.keys["depths"] = [1.0, 5.0, 0.1]
         with self.assertRaisesRegex(StudyError, "'mesh' counts to 5 m.*set its depths"):
-            error_bar.evaluate([study], Options(), 0)
+            bar_study.evaluate([study], Options(), 0)
 
     def test_shown_depths(self) -> None:
         """All of a few, as those of windows; else some round ones."""
         few = np.array([1.19, 2.12, 3.06, 4.0])
-        self.assertEqual(error_bar.chosen_depths(few), [0, 1, 2, 3])
-        self.assertEqual(error_bar.chosen_depths(np.linspace(1, 3, 21)), [10, 20])
+        self.assertEqual(bar_study.chosen_depths(few), [0, 1, 2, 3])
+        self.assertEqual(bar_study.chosen_depths(np.linspace(1, 3, 21)), [10, 20])
 
     def test_drained_runs_have_forces_only(self) -> None:
         bars, _ = self.bars(self.study((None, None, None)))
@@ -132,7 +133,7 @@ class ErrorBar(unittest.TestCase):
         study = self.study()
         (study.run("refined").run.directory / "history.csv").unlink()
         with self.assertRaisesRegex(StudyError, "history.csv"):
-            error_bar.evaluate([study], Options(), 0)
+            bar_study.evaluate([study], Options(), 0)
 
     def test_row_of_the_ladder(self) -> None:
         """1000 Pa are 10 % of the suction at 3 m."""
@@ -232,13 +233,13 @@ class Similar(ErrorBar):
             encoding="utf-8",
         )
         options = Options(results=self.path / "results")
-        (study,) = Reader(file, options, error_bar.STUDY_KEYS, set()).studies()
+        (study,) = LabReader(file, options, bar_study).studies()
         for run, number in zip(study.runs, meshes.values()):
             summary = {"fingerprint": "f00d", "wall_time_s": 60}
             write_run(run.run.directory, synthetic(0.08 / number, None), summary)
         bars, printed = self.bars(study)
         np.testing.assert_allclose(bars["tip_below"], 0.1 / 1.08, atol=1e-4)
-        np.testing.assert_allclose(bars["tip_above"], error_bar.LEAST)
+        np.testing.assert_allclose(bars["tip_above"], bar_study.LEAST)
         np.testing.assert_allclose(bars["tip_shift"], 1 / 1.08 - 1, atol=1e-4)
         self.assertRegex(printed, r"\| total +\| 1.0 +\| 0 % +\| 100 %")
 
@@ -339,7 +340,7 @@ class Plan(unittest.TestCase):
         known = {"is_complete.return_value": False, "restarts": False}
         calls = [unittest.mock.Mock(**known) for _ in "abc"]
         calls[1].execute.side_effect = RunError("a window ended early")
-        runs = [StudyRun("s", "", "", "", 9 - i, {}, c) for i, c in enumerate(calls)]
+        runs = [StudyRun("s", "", c, seconds=9 - i) for i, c in enumerate(calls)]
         for call in calls:
             call.completion_record.return_value = {"wall_s": 1, "status": 0}
         with contextlib.redirect_stdout(io.StringIO()):
@@ -458,7 +459,7 @@ class Windows(unittest.TestCase):
                 depth = np.linspace(0.64, 1.0, 37) + i
                 rising = np.where(depth > depth[-1] - 0.1201, force, 0)
                 history = {"time_s": depth, "penetration_m": depth, "F": rising}
-                history |= {q.column(): rising for q in error_bounds.SUCTION}
+                history |= {q.column(): rising for q in run_error_bar.SUCTION}
                 place = Path(folder, str(i))
                 write_run(place, history, {"entries": {}, "wall_time_s": 2.0})
                 results.append(Results(place))
@@ -528,14 +529,19 @@ class RunsOfWindows(unittest.TestCase):
         """Let the windows end in this way; return them."""
         place = self.whole.run.directory
         parts = [Part(place / str(i), status) for i, status in enumerate(statuses)]
-        runs = [StudyRun("s", p.directory.name, "", "", 1, {}, p) for p in parts]
+        known: dict[str, Any] = {"seconds": 1, "size": Size(1)}
+        runs = [StudyRun("s", p.directory.name, p, **known) for p in parts]
         self.parts_of.return_value = runs
         return parts
 
-    def execute(self, again: bool = False) -> None:
+    def execute(self, **changed: Any) -> int | None:
         """Make the runs of the plan."""
+        options = argparse.Namespace(
+            **{**vars(study_command.ALL), "jobs": 1, **changed}
+        )
+        study = Study("s", "s", self.plan.scene, [self.whole])
         with contextlib.redirect_stdout(io.StringIO()):
-            self.plan.execute([self.whole], How(again, jobs=1))
+            return self.plan.run_missing(study, options)
 
     def test_again(self) -> None:
         """What is missing runs; a window with a result is repeated with --again only,
@@ -547,6 +553,18 @@ class RunsOfWindows(unittest.TestCase):
         self.assertEqual(self.whole.results.summary["wall_time_s"], 4.0)
         self.execute(again=True)
         self.assertEqual((first.calls, second.calls), (2, 2))
+
+    def test_part(self) -> None:
+        """A job of an array makes its windows, and the means wait for all of them."""
+        first, second = self.give(Status.SUCCESS, Status.SUCCESS)
+        self.assertEqual(self.execute(part=(2, 2)), 0)
+        self.assertEqual((first.calls, second.calls), (0, 1))
+        self.assertFalse((self.whole.run.directory / "history.csv").exists())
+        with self.assertRaisesRegex(StudyError, "not run"):
+            self.execute(evaluate=True)
+        self.assertEqual(self.execute(part=(1, 2)), 0)
+        self.assertEqual(self.execute(evaluate=True), None)
+        self.assertEqual(self.whole.results.summary["wall_time_s"], 4.0)
 
     def test_a_window_that_breaks_off(self) -> None:
         """It is no result, also when the command is given again; the message names the

@@ -29,7 +29,7 @@ from plain_solver import Deck, forces_of, read_deck
 
 from caisson import __main__ as program
 from caisson.results import Results, ResultsError, read_table
-from caisson.export import command, decks, tables
+from caisson.export import command, files
 from caisson.export.exported import Exported, force_of_run
 from caisson.export.interpolate import interpolate
 from caisson.export.state import Layer, State, forces_at, layers_of
@@ -143,7 +143,7 @@ class Balance(Temporary):
 
     def deck(self, state: Exported) -> Deck:
         """Return what is read back."""
-        decks.write(self.path / "a.inp", state, "abaqus")
+        files.write_deck(self.path / "a.inp", state, "abaqus")
         return read_deck(self.path / "a.inp")
 
     def test_forces_of_the_run(self) -> None:
@@ -251,7 +251,7 @@ class Balance(Temporary):
 
     def change_by_calculix(self, found: Exported) -> float:
         """Return how much CalculiX changes the stress, as a share of it."""
-        decks.write(self.path / "a.inp", found, "calculix")
+        files.write_deck(self.path / "a.inp", found, "calculix")
         assert CCX is not None
         done = subprocess.run([CCX, "a"], cwd=self.path, text=True, capture_output=True)
         self.assertNotIn("*ERROR", done.stdout)
@@ -268,7 +268,7 @@ class Tables(Temporary):
 
     def test_csv(self) -> None:
         found = on_mesh(made_up(noise=0.02))
-        tables.write_cells(self.path / "a.csv", found)
+        files.write_cells(self.path / "a.csv", found)
         table = read_table(self.path / "a.csv")
         np.testing.assert_allclose(
             table["stress_tt_Pa"], found.values.stress[:, 2], rtol=1e-8
@@ -288,7 +288,7 @@ class Tables(Temporary):
         from caisson import vtu
 
         found = on_mesh(made_up())
-        tables.write_vtu(self.path / "a.vtu", found)
+        files.write_vtu(self.path / "a.vtu", found)
         grid = vtu.read_grid(self.path / "a.vtu")
         cells = vtu.named_arrays(grid.GetCellData())
         np.testing.assert_array_equal(cells["stress_rr_Pa"], found.values.stress[:, 0])

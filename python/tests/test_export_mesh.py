@@ -10,9 +10,8 @@ from made_up_state import made_up, on_mesh, Temporary, WEDGE, WINDOW
 from plain_solver import forces_of, read_deck
 from scipy.spatial import cKDTree
 
-from caisson.export import decks
+from caisson.export import files
 from caisson.export.gmsh import read_gmsh
-from caisson.export.laws import youngs_modulus
 from caisson.export.mesh import (
     default_window,
     lattice,
@@ -23,7 +22,7 @@ from caisson.export.mesh import (
     with_sets,
 )
 from caisson.export.springs import shear_modulus
-from caisson.export.state import Wall
+from caisson.export.state import Wall, youngs_modulus
 from caisson.results import ResultsError
 
 
@@ -179,7 +178,7 @@ class Gmsh(Temporary):
             found = on_mesh(made_up(wall=None), mesh)
             self.assertAlmostEqual(found.mesh.volumes.sum(), math.pi * 4**2 * 4)
             self.assertGreater(found.mesh.volumes.min(), 0)
-            decks.write(self.path / "a.inp", found, "abaqus")
+            files.write_deck(self.path / "a.inp", found, "abaqus")
             deck = read_deck(self.path / "a.inp")
             self.assertEqual(deck.element_sets["GROUP_6"], [2, 3])
             self.assertAlmostEqual(forces_of(deck).whole / found.weight, 1, delta=1e-6)

@@ -26,13 +26,12 @@ COMMANDS = {
     "scripts/lab": lab.__main__.COMMANDS,
     "tools/workshop": caisson_workshop.__main__.COMMANDS,
 }
-MOST_COMMANDS, MOST_LINES = 12, 29_900  # of the user's package
+MOST_COMMANDS, MOST_LINES = 12, 29_540  # of the user's package
 
 
 # of the package, in the order in which one may import another one
-FOLDERS = (
-    "design verdict plot error parameters export report log suggest commands".split()
-)
+FOLDERS = "design verdict plot error_bars uncertain".split()
+FOLDERS += "export report log suggest commands".split()
 
 
 FILES = sorted((ROOT / "python/caisson").rglob("*.py"))

@@ -16,10 +16,9 @@ from synthetic import write_run
 from test_log import END, SCENE, WEIGHT, history_of, AREA, BEST, DEPTH
 
 from caisson import needed, runs
-from caisson.commands import park_rows, park_study
+from caisson.commands import park, park_rows
 from caisson.runner import Run, RunError
 from caisson.runs import How, StudyRun, make
-from caisson.study import Options, Study
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
@@ -38,8 +37,8 @@ class WithRuns(unittest.TestCase):
         run = Run(
             self.path / "a.prm", {}, self.path / "runs" / name, program=FAKE_PROGRAM
         )
-        settings = {"position": {"name": name}, "estimate": "best"}
-        return StudyRun("runs", name, "", "", 1.0, settings, run)
+        settings = {"position": name, "estimate": "best"}
+        return StudyRun("runs", name, run, settings, seconds=1.0)
 
 
 class Overview(WithRuns):
@@ -67,9 +66,8 @@ class Overview(WithRuns):
             self.write("refused", (BEST[200] - WEIGHT) / AREA),
             self.run_of("missing"),
         ]
-        study = Study("runs", "positions.csv", self.path / "park.toml", runs)
         with contextlib.redirect_stdout(io.StringIO()) as said:
-            status = park_study.evaluate([study], Options(results=self.path), 1.0)
+            status = park.evaluate("positions.csv", runs, self.path, 1.0)
         self.assertEqual(status, 1)
         self.assertIn("3 of 4 positions", said.getvalue())
         with (self.path / "overview.csv").open(encoding="utf-8") as file:
@@ -93,10 +91,10 @@ class Overview(WithRuns):
         run = self.write("shut", 1e9)
         part = mock.Mock(required=np.array([1, 2]), utilization=np.array([0.2, np.inf]))
         part.governing.return_value = "plug meets the lid"
-        with mock.patch.object(park_study.verdict, "feasible_part", return_value=part):
-            row = park_study.row_of(run, self.path)
+        with mock.patch.object(park.verdict, "feasible_part", return_value=part):
+            row = park.row_of(run, self.path)
         self.assertEqual((row.utilization, row.governed_by), (1, "plug meets the lid"))
-        park_study.draw(self.path / "overview.png", [row])
+        park.draw(self.path / "overview.png", [row])
 
     def test_heads(self) -> None:
         for head, found in {

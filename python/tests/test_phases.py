@@ -8,7 +8,7 @@ from test_report import SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import phases
-from caisson.commands.run_phases import asked_for
+from caisson.commands.run_several import phases_asked_for
 from caisson.report.phases import rows_of
 from caisson.results import Results
 from caisson.runner import RunError
@@ -58,7 +58,7 @@ class Words(unittest.TestCase):
         """Return why a scene cannot have phases."""
         every = COUPLED | {k.replace("_", "/"): v for k, v in entries.items()}
         with self.assertRaises(RunError) as caught:
-            asked_for([], every | {phases.ENTRY: text})
+            phases_asked_for([], every | {phases.ENTRY: text})
         return str(caught.exception)
 
     def test_what_a_scene_cannot_have(self) -> None:
@@ -80,7 +80,7 @@ class Words(unittest.TestCase):
         self.assertIn("pull undrained: leave it out: the phase before", said)
         said = self.refusal("push", **{"Rigid body_Velocity": "0"})
         self.assertIn("a share of Rigid body/Velocity, which is 0; set it", said)
-        self.assertEqual(asked_for(["--validate"], {phases.ENTRY: "push"}), [])
+        self.assertEqual(phases_asked_for(["--validate"], {phases.ENTRY: "push"}), [])
 
 
 class Page(WithPage):

@@ -11,7 +11,7 @@ from synthetic import write_columns, write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.verdict import limits
 from caisson.results import Results
 from caisson.report import content, layers, methods, sketch
@@ -38,7 +38,7 @@ class Cards(WithPage):
         columns |= {"required_suction_shift_Pa": shift} if any(shift) else {}
         lines = [",".join(map(str, row)) for row in zip(*columns.values())]
         text = "\n".join(["# fingerprint: f00d", ",".join(columns), *lines])
-        (self.path / error_bounds.NAME).write_text(text, encoding="utf-8")
+        (self.path / run_error_bar.NAME).write_text(text, encoding="utf-8")
 
     def test_error_bar_that_ends_above_the_run(self) -> None:
         """30 kPa at 4.5 m, of a bar of 2 kPa that ends at 4.4 m; far above the end it

@@ -2,15 +2,17 @@
 """The format of studies, and verdicts that need no run."""
 import math
 import tempfile
+import types
 import unittest
 from pathlib import Path
 from typing import Any
 
 from caisson import study_command
 from caisson.paths import SCENES
-from caisson.study import Options, Reader, Study, StudyError, read_toml
+from caisson.study import Options, Study, StudyError, read_toml
 from lab import study_command as lab_studies
 from lab import verification
+from lab.study import LabReader
 
 HEAD = """
 kind = "forces"
@@ -18,6 +20,10 @@ set = {"A/a" = 1, "A/b" = 1}
 [variants]
 other = {"A/d" = 4}
 """
+
+
+KIND = types.ModuleType("a kind")
+vars(KIND)["STUDY_KEYS"] = {"mine"}
 
 
 class Format(unittest.TestCase):
@@ -33,7 +39,7 @@ class Format(unittest.TestCase):
         file = self.path / "test.toml"
         file.write_text(text, encoding="utf-8")
         asked = Options(results=self.path / "results", **options)
-        return Reader(file, asked, {"mine"}, {"own"}).studies()
+        return LabReader(file, asked, KIND).studies()
 
     def test_a_file_is_one_study(self) -> None:
         (study,) = self.read('kind = "forces"\nscene = "a.prm"\nmine = 3')
@@ -152,7 +158,7 @@ class OwnStudies(unittest.TestCase):
         """Return the studies of a file."""
         module = study_command.module_of(file, lab_studies.KINDS)
         options = Options(results=Path("results"))
-        return study_command.reader_of(file, options, module).studies()
+        return lab_studies.reader_of(file, options, module).studies()
 
     def test_all_can_be_read(self) -> None:
         """And name scenes that there are, each run a directory of its own."""

@@ -9,14 +9,14 @@ from unittest.mock import MagicMock
 import numpy as np
 from scipy import stats
 from scipy.stats import qmc
-from test_parameters_runs import FAKE_PROGRAM, PHI, WithFiles
+from test_uncertain_runs import FAKE_PROGRAM, PHI, WithFiles
 
 from caisson import __main__ as program
 from caisson import needed
 from caisson.evaluation import rest_of_run
-from caisson.parameters import surface
-from caisson.parameters.outcome import COMPLETE, Outcome
-from caisson.parameters.surface import Refusal
+from caisson.uncertain import surface
+from caisson.uncertain.outcome import COMPLETE, Outcome
+from caisson.uncertain.surface import Refusal
 
 HAS_SKLEARN = needed.is_there("sklearn")
 SPREAD = 0.2  # standard deviation of the first factor, of 1
@@ -120,7 +120,7 @@ class Rest(unittest.TestCase):
             "required_suction_Pa": required,
             "suction_Pa": np.maximum(required, 0),
         }
-        run = Outcome("a", {}, COMPLETE, "", history, MagicMock(), None, False)
+        run = Outcome(MagicMock(), COMPLETE, "", history)
         self.assertGreater(abs((rest_of_run(history) or 0) - 1.5), 0.1)
         self.assertAlmostEqual(run.rest or 0, 1.5, delta=0.02)
         history["suction_Pa"] = np.zeros(251)

@@ -10,7 +10,7 @@ from synthetic import DESIGN
 from test_report import SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson.error_bounds import NAME as ERROR
+from caisson.run_error_bar import NAME as ERROR
 from caisson.report import page, trace
 from caisson.results import Results
 

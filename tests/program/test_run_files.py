@@ -16,7 +16,7 @@ from program import (
     summary,
 )
 
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.verdict import design
 from caisson.table import text_of
 from caisson.report import verdict
@@ -91,7 +91,7 @@ class Files(ProgramTest):
             "penetration_m,tip_below,tip_above,total_below,total_above\n"
             "0.5,0.2,0.2,0.1,0.01\n0.73,0.2,0.2,0.04,0.04\n"
         )
-        error_bounds.adopt(path, path / "error.csv")
+        run_error_bar.adopt(path, path / "error.csv")
         run = Results(path)
         rows = outcome.results_of(run)["at_depths"]
         known = {round(row["penetration_m"], 6): row for row in rows}

@@ -11,8 +11,8 @@ from program import HERE, ProgramTest, caisson, scene, user_scene
 
 from caisson.runner import read_parameters
 from caisson.study import Options
-from caisson.study_command import module_of, reader_of
-from lab.study_command import KINDS, files
+from caisson.study_command import module_of
+from lab.study_command import KINDS, files, reader_of
 
 CHECKS = '"Verification/Checks"'
 LADDER = f"""

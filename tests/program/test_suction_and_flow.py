@@ -17,7 +17,7 @@ from program import (
     user_scene,
 )
 
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.results import ResultsError
 
 INNER_RADIUS = 2.8  # m, of simulation/jack.prm
@@ -85,7 +85,7 @@ class Suction(ProgramTest):
             "0.52,0.1,0.1,-0.05,0.2,0.2,-0.1,1000,1000,-500\n"
             "0.58,0.4,0.4,-0.05,0.2,0.2,-0.1,4000,4000,-500\n"
         )
-        error_bounds.adopt(path, file)
+        run_error_bar.adopt(path, file)
         rows = [r for r in history(path) if 0.52 <= r["penetration_m"] <= 0.58]
         self.assertGreater(len(rows), 3)
         bounds = Results(path).error_bounds
@@ -116,8 +116,8 @@ class Suction(ProgramTest):
         other = self.directory("other")
         self.run_scene("suction", other, entries=entries)
         with self.assertRaisesRegex(ResultsError, "other parameters"):
-            error_bounds.adopt(other, file)
-        self.assertFalse((other / error_bounds.HISTORY).exists())
+            run_error_bar.adopt(other, file)
+        self.assertFalse((other / run_error_bar.HISTORY).exists())
 
     def test_exit_gradient_has_no_peaks(self) -> None:
         """Over the suction, it falls with depth; at a single node it would rise by

@@ -11,7 +11,7 @@ from unittest import mock
 
 from program import HERE, SUCCESS, ProgramTest, caisson, history, summary, user_scene
 
-from caisson import error_bounds, ranks
+from caisson import run_error_bar, ranks
 from caisson.paths import PROGRAM
 from caisson.results import Results
 from caisson.runner import query, environment, size_in
@@ -137,7 +137,7 @@ end
         self.assertIn("runs to do: 0", again)
         results = path / "results"
         self.run_program(SUCCESS, str(scene), "--output-directory", results)
-        error_bounds.adopt(results)
+        run_error_bar.adopt(results)
         bounds = Results(results).error_bounds
         self.assertGreater(len(bounds["total_force_low_N"]), 5)
         self.assertTrue((bounds["total_force_low_N"] < bounds["total_force_N"]).all())

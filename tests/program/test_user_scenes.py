@@ -15,7 +15,7 @@ from program import (
     user_scene,
 )
 
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.results import Results
 from lab.paths import LAB
 from lab.studies import scene_results
@@ -77,8 +77,8 @@ class UserScenes(ProgramTest):
                     path,
                     entries={"Time/End time": 0.02},
                 )
-                bar = error_bounds.beside(SCENES / f"{name}.prm")
-                self.assertTrue(error_bounds.is_of(Results(path), bar))
+                bar = run_error_bar.beside(SCENES / f"{name}.prm")
+                self.assertTrue(run_error_bar.is_of(Results(path), bar))
 
     def test_pull_out_after_is_valid(self) -> None:
         """After a short piece of its installation; some steps pull."""

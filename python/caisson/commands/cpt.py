@@ -20,7 +20,7 @@ from pathlib import Path
 
 from caisson import disk, suggest
 from caisson.band import ESTIMATES, HIGH, LOW, member_of
-from caisson.commands import round_trip, run, run_band
+from caisson.commands import round_trip, run, run_several
 from caisson.design import cone_picture, cone_texts, interpretation
 from caisson.paths import RESULTS, scene_or_study, seen, short
 from caisson.study import file_name
@@ -125,4 +125,4 @@ def main(options: argparse.Namespace) -> int:
         report(cone.run())
     if not options.run:
         return 0
-    return run_band.main([str(scene)], run.draw, run.reporting)
+    return run_several.run_band([str(scene)], run.draw, run.reporting)

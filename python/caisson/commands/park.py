@@ -25,19 +25,41 @@ the latter after all of them; or the workers of Dask take the runs, with --dask
 tcp://HOST:8786.
 """
 import argparse
+import concurrent.futures
+import json
+import math
 import re
+import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
-from caisson import disk, study_command
-from caisson.commands import park_rows, park_study
+import numpy as np
+from matplotlib.figure import Figure
+
+from caisson import disk, plot, report, study_command
+from caisson.band import BEST, ESTIMATES, member_of
+from caisson.commands import park_rows
+from caisson.commands.park_rows import Position
 from caisson.disk import InputError
 from caisson.paths import RESULTS, short
-from caisson.study import file_name, read_toml
+from caisson.ranks import cores
+from caisson.report import verdict
+from caisson.report.scene import end_of
+from caisson.results import Results
+from caisson.runner import Run
+from caisson.runs import COMPLETE, StudyRun
+from caisson.study import file_name
 from caisson.suggest import percent
 from caisson.suggest.sizes import LEVELS
+from caisson.table import digits, write_csv
+from caisson.template import template
+from caisson.verdict import installation
 
-STUDY = "park.toml"
+HERE = Path(__file__).parent
+KNOWN = "positions.json"  # what the scenes rest on, by the name of a position
+PAGE, TABLE, PICTURE = "overview.html", "overview.csv", "overview.png"
+COLORS = ("#2166ac", "#d95f02", "#1b9e77", "#7570b3", "#a6761d", "#e7298a", "#666666")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,15 +71,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--check", action="store_true", help="write the scenes, and run nothing")
     study_command.add_running_arguments(parser)
-    parser.set_defaults(only="", quick=False, list=False, again=False)
-
-
-def known_in(file: Path) -> dict[str, Any]:
-    """Return what the scenes of the positions of an earlier call rest on, by name."""
-    if not file.is_file():
-        return {}
-    runs = read_toml(file).get("runs", [])
-    return {run["position"]["name"]: run["position"] for run in runs}
 
 
 def cost_of(name: str, file: Path) -> str:
@@ -71,36 +84,214 @@ def cost_of(name: str, file: Path) -> str:
     return f"{name}: {how_long}, {warnings}: {short(file)}"
 
 
-def prepare(table: Path, error: int, folder: Path) -> Path:
-    """Write the scenes of a table and their study into a folder, as far as they are not
-    there; return the study. Raises InputError."""
-    positions, study = park_rows.read(table, error), folder / STUDY
+def prepare(table: Path, error: int, folder: Path) -> list[Position]:
+    """Write the scenes of a table into a folder, as far as they are not there; return
+    its positions. Raises InputError."""
+    positions, known = park_rows.read(table, error), folder / KNOWN
     wrong = park_rows.wrong_names(table, positions)
     if wrong:
         raise InputError("\n".join(wrong))
     disk.claim(folder, table, "give another folder by --out DIR")
-    for name in (STUDY, park_study.PAGE, park_study.TABLE, park_study.PICTURE):
+    for name in (KNOWN, PAGE, TABLE, PICTURE):
         disk.refuse_input(folder / name)
-    known, scenes = known_in(study), folder / "scenes"
+    try:
+        before = json.loads(disk.read_text(known))
+    except (InputError, ValueError):  # there is none, or a broken one
+        before = {}
+    records = {p.name: park_rows.record_of(table, p) for p in positions}
+    scenes = folder / "scenes"
     new = [
         p
         for p in positions
-        if known.get(p.name) != park_rows.record_of(table, p)
+        if before.get(p.name) != records[p.name]
         or not (scenes / f"{file_name(p.name)}.prm").is_file()
     ]
     park_rows.write_scenes(table, new, scenes)
+    disk.write(known, json.dumps(records, indent=1))
     print(f"positions: {len(positions)}, of which new or changed: {len(new)}")
     for position in positions:
         print(cost_of(position.name, scenes / f"{file_name(position.name)}.txt"))
-    return disk.write(study, park_rows.study_of(table, positions, folder))
+    return positions
+
+
+def runs_of(position: Position, folder: Path, program: Path) -> Iterator[StudyRun]:
+    """Yield the run of a position, and those of its low and high estimate."""
+    best = folder / "scenes" / f"{file_name(position.name)}.prm"
+    for estimate in ESTIMATES:
+        if (scene := member_of(best, estimate)).is_file():
+            place = folder / "runs" / scene.stem
+            run = Run(scene.resolve(), directory=place.resolve(), program=program)
+            known = {"position": position.name, "estimate": estimate}
+            yield StudyRun("runs", scene.stem, run, known)
+
+
+class Row(NamedTuple):
+    """A position, as overview.csv has it: what is said of it, numbers that are nan
+    where they are not known, and its page from the folder of the overview, "" for
+    none. utilization: the largest share of the allowable suction that is required."""
+
+    position: str
+    utilization: float = math.nan
+    governed_by: str = ""
+    feasible_to_m: float = math.nan
+    planned_m: float = math.nan
+    self_weight_penetration_m: float = math.nan
+    largest_suction_kPa: float = math.nan
+    verdict: str = ""
+    page: str = ""
+    is_complete: bool = True
+
+    @property
+    def reached(self) -> float:
+        """The share of the planned way that is feasible; 1 where it is not known."""
+        share = self.feasible_to_m / self.planned_m if self.planned_m else math.nan
+        return min(share, 1.0) if math.isfinite(share) else 1.0
+
+    @property
+    def rank(self) -> tuple[bool, float, float]:
+        """Its place: runs without a result, and then the worst, come first."""
+        share = self.utilization if math.isfinite(self.utilization) else -1.0
+        return self.is_complete, self.reached, -share
+
+
+def page_of(directory: Path) -> str:
+    """Draw the pictures and write the page of a run, if it has none since its end and
+    that of its band; return why there is none, "" where there is."""
+    page = directory / report.NAME
+    records = [member_of(directory, estimate) / Run.RECORD for estimate in ESTIMATES]
+    last = max(record.stat().st_mtime for record in records if record.is_file())
+    if page.is_file() and page.stat().st_mtime >= last:
+        return ""
+    try:
+        plot.draw(directory)
+        report.write(directory)
+    except Exception as error:  # whatever it is, the run was good
+        return f"no page of {directory}: {type(error).__name__}: {error}"
+    return ""
+
+
+def row_of(run: StudyRun, folder: Path) -> Row:
+    """Return what has become of a position."""
+    page = run.run.directory / report.NAME
+    link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
+    name = run.settings["position"]
+    if run.outcome[0] != COMPLETE:
+        said = f"No result ({run.words})."
+        return Row(name, verdict=said, page=link, is_complete=False)
+    return with_numbers(Row(name, page=link), run.results)
+
+
+def with_numbers(row: Row, run: Results) -> Row:
+    """Return a row with what a run says."""
+    said = verdict.verdict_of(run)
+    found = installation.installation_of(run, installation.Rate())
+    row = row._replace(verdict=said.text or "The run says nothing.")
+    if found is None:
+        return row
+    part = verdict.feasible_part(run, found, said.end)
+    row = row._replace(
+        feasible_to_m=said.end or float(found.depth[-1]),
+        planned_m=end_of(run) or math.nan,
+        self_weight_penetration_m=math.nan if found.rest is None else found.rest,
+    )
+    if not len(part.required):
+        return row
+    with np.errstate(invalid="ignore", divide="ignore"):
+        # where nothing is allowed, as where the plug meets the lid, suction ends
+        shares = np.nan_to_num(part.utilization, posinf=1.0)
+    i = int(np.argmax(shares))
+    share = max(1.0, float(shares[i])) if said.end is not None else float(shares[i])
+    name = said.reason or (part.governing(i) if share > 0 else "")
+    most = float(part.required.max())
+    return row._replace(utilization=share, governed_by=name, largest_suction_kPa=most)
+
+
+def draw(path: Path, rows: Sequence[Row]) -> Path:
+    """Draw the utilization of the positions, the worst above; return the path."""
+    figure = Figure(figsize=(8, 1.6 + 0.3 * len(rows)))
+    axes = figure.subplots()
+    limits = list(dict.fromkeys(row.governed_by for row in rows if row.governed_by))
+    for i, row in enumerate(rows):
+        if math.isfinite(row.utilization):
+            number = limits.index(row.governed_by) if row.governed_by else -1
+            axes.barh(i, row.utilization, color=COLORS[number % len(COLORS)])
+        place = row.utilization if math.isfinite(row.utilization) else 0.0
+        text = f"{place:.2f}" if row.is_complete else "no result"
+        if row.is_complete and not math.isfinite(row.utilization):
+            text = "no suction"
+        if row.is_complete and row.reached < 1:
+            text += f", to {row.feasible_to_m:.3g} of {row.planned_m:.3g} m"
+        axes.text(place, i, f" {text}", va="center", fontsize=8)
+    for number, name in enumerate(limits):
+        axes.barh(0, 0, color=COLORS[number % len(COLORS)], label=name)
+    axes.axvline(1, color="#c0392b", linestyle="--", label="allowable")
+    axes.set_yticks(range(len(rows)), [row.position for row in rows], fontsize=8)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_xlim(
+        0,
+        1.45 * max(1.0, *(row.utilization for row in rows if row.utilization > 0), 1.0),
+    )
+    axes.set_xlabel("required suction / allowable suction, the largest on the way")
+    axes.legend(fontsize=8, loc="lower right")
+    figure.set_layout_engine("tight")
+    return disk.save(figure, path)
+
+
+def write_table(path: Path, rows: Sequence[Row]) -> Path:
+    """Write overview.csv; return its path."""
+
+    def cell(head: str, value: float | str) -> str:
+        if isinstance(value, str):
+            return value
+        return digits(value, 3 if head == "utilization" else 4)
+
+    heads = Row._fields[:-1]
+    cells = [[cell(head, getattr(row, head)) for head in heads] for row in rows]
+    return write_csv(path, heads, cells)
+
+
+def evaluate(title: str, runs: Sequence[StudyRun], folder: Path, minutes: float) -> int:
+    """Write pages and overview; return 1 where a position has no result."""
+    done = [run.run.directory for run in runs if run.outcome[0] == COMPLETE]
+    with concurrent.futures.ProcessPoolExecutor(cores()) as pool:
+        for trouble in filter(None, pool.map(page_of, done)):
+            print(trouble)
+    best = [run for run in runs if run.settings["estimate"] == BEST]
+    rows = sorted((row_of(run, folder) for run in best), key=lambda row: row.rank)
+    complete = [row for row in rows if row.is_complete]
+    write_table(folder / TABLE, rows)
+    draw(folder / PICTURE, rows)
+    css = Path(report.__file__).parent / "page.css"
+    text = template(HERE / "overview.html.jinja", digits=digits).render(
+        title=disk.one_line(title),
+        rows=rows,
+        complete=len(complete),
+        feasible=sum(not row.utilization >= 1 for row in complete),
+        style=css.read_text(encoding="utf-8"),
+        picture=PICTURE,
+        table=TABLE,
+    )
+    disk.write(folder / PAGE, text)
+    for row in rows:
+        print(f"{row.position}: {row.verdict}")
+    print(f"park: {len(complete)} of {len(rows)} positions in {minutes:.1f} min")
+    print(f"next: open {short(folder / PAGE)}")
+    return 0 if len(done) == len(runs) else 1
 
 
 def main(options: argparse.Namespace) -> int:
     """Write scenes, run what is missing, and write the overview."""
     folder: Path = options.out or RESULTS / "park" / file_name(options.positions.stem)
-    study = prepare(options.positions, options.error, folder)
+    begin, positions = time.monotonic(), prepare(
+        options.positions, options.error, folder
+    )
     if options.check:
-        print(f"park: {short(study)}")
+        print(f"park: {short(folder / 'scenes')}")
         return 0
-    options.file, options.results = study, folder
-    return study_command.main(options)
+    program = options.program.resolve()
+    runs = [run for p in positions for run in runs_of(p, folder, program)]
+    status = study_command.run_missing(runs, options)
+    if status is not None:
+        return status
+    minutes = (time.monotonic() - begin) / 60
+    return evaluate(options.positions.name, runs, folder, minutes)

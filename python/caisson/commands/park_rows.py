@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from caisson import disk, paths, suggest
-from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
+from caisson.band import ESTIMATES, HIGH, LOW, member_of
 from caisson.design import cone_file, cone_grid
 from caisson.design.quantity import EVERY, NUMBER
 from caisson.disk import InputError
@@ -204,36 +204,6 @@ def write_scenes(path: Path, positions: Sequence[Position], folder: Path) -> Non
             lines, title = disk.read_text(found), "set Title = "
             own = f"{title}{disk.one_line(names[scene.name])}, "
             disk.write(found, lines.replace(title, own, 1))
-
-
-def study_of(path: Path, positions: Sequence[Position], folder: Path) -> str:
-    """Return the text of the study of a park; the scenes are in the folder scenes
-    beside it, and those of a band beside each of them."""
-    lines = [
-        'kind = "park"',
-        'id = "runs"',
-        f"title = {disk.quoted(path.name)}",
-    ]
-    for position in positions:
-        scene = folder / "scenes" / f"{file_name(position.name)}.prm"
-        for estimate in ESTIMATES:
-            found = member_of(scene, estimate)
-            if not found.is_file():
-                continue
-            run = position.name + ("" if estimate == BEST else f"_{estimate}")
-            lines += [
-                "",
-                "[[runs]]",
-                f"name = {disk.quoted(run)}",
-                f"scene = {disk.quoted(f'scenes/{found.name}')}",
-                f"estimate = {disk.quoted(estimate)}",
-                "[runs.position]",
-                *(
-                    f"{disk.quoted(k)} = {disk.quoted(v)}"
-                    for k, v in record_of(path, position).items()
-                ),
-            ]
-    return "\n".join([*lines, ""])
 
 
 def record_of(path: Path, position: Position) -> dict[str, str]:

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from caisson import needed, ranks
 from caisson.command_line import Parser
-from caisson.commands import run_band, run_phases
+from caisson.commands import run_several
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
 from caisson.runner import (
     RunError,
@@ -119,8 +119,8 @@ def options_for_error(
     """Return the options of the program with which the scene has the error that is
     wanted, and its error bar. The runs for it go beside the output directory. Raises
     RunError, StudyError and ArgumentTypeError."""
-    from caisson.error import wanted
-    from caisson.error.command import seconds_of
+    from caisson.error_bars import wanted
+    from caisson.error_bars.command import seconds_of
 
     scene, *more = options.arguments
     if more and more[0] != "--output-directory":
@@ -139,12 +139,12 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     """Draw the pictures, write the report and say whether it works; the results do not
     need them. error_bar: of the run, None for that beside the scene; in_full: say all
     of it, and not only where the report is."""
-    from caisson import error_bounds, plot, report
-    from caisson.report import band, verdict
+    from caisson import run_error_bar, plot, report
+    from caisson.report import low_and_high, verdict
     from caisson.results import Results
     from caisson.verdict import run_review
 
-    error_bounds.adopt(directory, error_bar)
+    run_error_bar.adopt(directory, error_bar)
     run = Results(directory)
     verdict.keep(run)
     for picture in plot.draw(directory):
@@ -155,7 +155,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     lines = [
         *(f"warning: {text}" for text in said),
         *verdict.lines_of(run),
-        band.sentence_of(run),
+        low_and_high.sentence_of(run),
     ]
     for line in filter(None, lines if in_full else []):
         print(line)
@@ -269,10 +269,10 @@ def main(options: argparse.Namespace) -> int:
                 f"--band takes --set, --restart and --overwrite, not {other}: each"
                 " scene has one core"
             )
-        return run_band.main(arguments, draw, reporting)
+        return run_several.run_band(arguments, draw, reporting)
     entries = entries_of(arguments)
     directory, stop_file = places_of(arguments, entries)
-    has_phases = bool(run_phases.asked_for(arguments, entries))
+    has_phases = bool(run_several.phases_asked_for(arguments, entries))
     error_bar = None
     if options.error and directory:  # else the program says what is wrong
         try:
@@ -283,7 +283,7 @@ def main(options: argparse.Namespace) -> int:
     if complaint := needed.complaint():
         print(f"run: {complaint}, for pictures and report", file=sys.stderr)
     if has_phases:
-        chain = run_phases.Chain(arguments, entries, options.ranks, error_bar)
+        chain = run_several.Chain(arguments, entries, options.ranks, error_bar)
         return chain.main(try_to_draw, reporting)
     n_ranks = options.ranks or choose_ranks(arguments)
     begin = time.time()

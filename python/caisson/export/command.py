@@ -14,29 +14,27 @@ from functools import partial
 from collections.abc import Callable
 from pathlib import Path
 
-from caisson.frame import Frame
-from caisson.verdict.loaded import LoadedRun, load
+from caisson.verdict.loaded import load
 from caisson.paths import short
 from caisson.results import ResultsError
 from caisson import disk
 from caisson.design.quantity import length, number
-from caisson.export import decks, spring_files, spring_picture, tables
+from caisson.export import files, spring_files
 from caisson.export.exported import Exported, exported
 from caisson.export.gmsh import read_gmsh
-from caisson.export.interpolate import interpolate
 from caisson.export.mesh import Mesh, Window, check_spacing, default_window, regular
 from caisson.export.places import read_places
 from caisson.export.springs import springs_of
 from caisson.export.state import State, read_state
-from caisson.export.text import POINTS, about, about_state
+from caisson.export.text import about
 
 Writer = Callable[[Path, Exported], None]
 # form: end of the file, and what writes it
 FORMS: dict[str, tuple[str, Writer]] = {
-    "csv": (".csv", tables.write_cells),
-    "vtu": (".vtu", tables.write_vtu),
-    "abaqus": ("_abaqus.inp", partial(decks.write, program="abaqus")),
-    "calculix": ("_calculix.inp", partial(decks.write, program="calculix")),
+    "csv": (".csv", files.write_cells),
+    "vtu": (".vtu", files.write_vtu),
+    "abaqus": ("_abaqus.inp", partial(files.write_deck, program="abaqus")),
+    "calculix": ("_calculix.inp", partial(files.write_deck, program="calculix")),
 }
 SPRINGS = "tz"
 WHERE = ("penetration", "time", "mesh", "points", "spacing", "radius", "depth")
@@ -71,15 +69,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--beside", type=Path, metavar="DIR", help=text)
 
 
-def frame_of(run: LoadedRun, options: argparse.Namespace) -> Frame:
-    """Return the frame that is asked for."""
-    if options.penetration is not None:
-        return run.frame(penetration=options.penetration)
-    if options.time is not None:
-        return run.frame(time=options.time)
-    return run.frame(index=-1)
-
-
 def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     """Return the mesh that is asked for. Raises ResultsError."""
     given = (options.radius, options.depth, options.spacing)
@@ -105,15 +94,6 @@ def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     return mesh
 
 
-def export_points(state: State, options: argparse.Namespace, path: Path) -> list[str]:
-    """Write the values at the points of a table; return what to say of them."""
-    if options.to != "csv":
-        raise ResultsError(f"--points is for --to csv, not {options.to}")
-    at = read_places(options.points, state)
-    tables.write_points(path, state, at, interpolate(state, at))
-    return [*about_state(state), POINTS]
-
-
 def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
     """Write the springs; return the file, and what to say of them."""
     if unused := [name for name in WHERE if getattr(options, name) is not None]:
@@ -132,7 +112,7 @@ def export_springs(options: argparse.Namespace) -> tuple[Path, list[str]]:
             )
     path = options.output or options.directory / "springs.csv"
     spring_files.write_csv(path, found, other)
-    spring_picture.draw(path.with_suffix(".png"), found, other)
+    spring_files.draw(path.with_suffix(".png"), found, other)
     return path, spring_files.about_both(found, other)
 
 
@@ -142,13 +122,17 @@ def export_state(options: argparse.Namespace) -> tuple[Path, list[str]]:
         if getattr(options, name) is not None:
             raise ResultsError(f"--{name} is for --to {SPRINGS}")
     run = load(options.directory)
-    state = read_state(run, frame_of(run, options))
+    where = {name: getattr(options, name) for name in ("penetration", "time")}
+    where = {name: value for name, value in where.items() if value is not None}
+    state = read_state(run, run.frame(**(where or {"index": -1})))
     end, write = FORMS[options.to]
     path = options.output or options.directory / f"state{end}"
     if options.points is not None:
-        return path, export_points(state, options, path)
-    mesh = mesh_of(state, options)
-    found = exported(state, mesh)
+        if options.to != "csv":
+            raise ResultsError(f"--points is for --to csv, not {options.to}")
+        at = read_places(options.points, state)
+        return path, files.write_points(path, state, at)
+    found = exported(state, mesh_of(state, options))
     write(path, found)
     return path, about(found)
 

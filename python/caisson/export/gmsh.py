@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Meshes of Gmsh: text files of triangles and quadrilaterals with r = x and z = y."""
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,33 +11,20 @@ from caisson.export.mesh import CLOSE, Mesh, default_window, with_sets
 from caisson.export.state import State, Wall
 
 CORNERS = {2: 3, 3: 4}  # types of elements of Gmsh: triangles and quadrilaterals
+Nodes = dict[int, list[float]]  # r, z and 0 by tag
 
 
-def sections(lines: list[str]) -> dict[str, list[str]]:
+def sections(text: str) -> dict[str, list[str]]:
     """Return the lines of a file of Gmsh between $Name and $EndName by name."""
-    result: dict[str, list[str]] = {}
-    name = ""
-    for line in lines:
-        if line.startswith("$End"):
-            name = ""
-        elif line.startswith("$"):
-            name = line[1:].strip()
-            result[name] = []
-        elif name:
-            result[name].append(line)
-    return result
+    found = re.findall(r"^\$(?!End)(\w+)\s*\n(.*?)(?=^\$|\Z)", text, re.M | re.S)
+    return {name: lines.splitlines() for name, lines in found}
 
 
-def read_2(
-    parts: dict[str, list[str]]
-) -> tuple[dict[int, list[float]], list[list[int]]]:
+def read_2(parts: dict[str, list[str]]) -> tuple[Nodes, list[list[int]]]:
     """Return nodes by their tags, and [tags of group and surface, corners...] of cells,
     of format 2.2."""
-    nodes = {}
-    for line in parts["Nodes"][1:]:
-        tag, *x = line.split()
-        nodes[int(tag)] = [float(value) for value in x]
-    cells = []
+    lines = (line.split() for line in parts["Nodes"][1:])
+    nodes, cells = {int(tag): list(map(float, x)) for tag, *x in lines}, []
     for line in parts["Elements"][1:]:
         numbers = [int(word) for word in line.split()]
         if numbers[1] in CORNERS:
@@ -45,9 +33,7 @@ def read_2(
     return nodes, cells
 
 
-def read_4(
-    parts: dict[str, list[str]]
-) -> tuple[dict[int, list[float]], list[list[int]]]:
+def read_4(parts: dict[str, list[str]]) -> tuple[Nodes, list[list[int]]]:
     """Return the same of format 4.1."""
     groups = {}
     if "Entities" in parts:
@@ -85,7 +71,7 @@ def parsed(path: Path) -> tuple[Mesh, np.ndarray, dict[int, str]]:
                 f"{path} {kind} ({b' '.join(version).decode()}): save it as text by"
                 f" gmsh {path} -save -format msh41 -o {path.stem}_text.msh"
             )
-        parts = sections(disk.read_text(path, ResultsError).splitlines())
+        parts = sections(disk.read_text(path, ResultsError))
         found, cells = (read_2 if version[0] == b"2.2" else read_4)(parts)
         words = [line.split(maxsplit=2) for line in parts.get("PhysicalNames", [])[1:]]
         names = {int(tag): name.strip('"') for kind, tag, name in words if kind == "2"}

@@ -1,69 +1,38 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Springs of a caisson as a table of t-z curves, and what is said of them."""
+"""Springs of a caisson as a table and a picture of t-z curves, and what is said of
+them."""
 from pathlib import Path
 
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from caisson import table
+from caisson import disk, table
 from caisson.export.springs import SMALL, STILL_GROWS, WALLS, Springs
+from caisson.export.text import WORDS, lines
+from caisson.template import say
 
 ROWS = 25  # of a curve in the table
+SIGNS = (
+    "t of a wall and q of the tip: the resistance is the change of the stress since the"
+    " displacement began, against the motion; stress_kPa is the stress itself, upward"
+    " on the caisson. Both are effective. The ultimate is the largest of the curve.",
+)
 SAME_DEPTH = 0.03  # of the depth, by which two runs beside each other may differ
 
 
 def about_springs(found: Springs) -> list[str]:
     """Return what run and motion it is, and what the whole body does."""
-    down = found.direction > 0
-    largest = int(np.argmax(found.force))
-    is_missing = found.missing > 0.02 * found.force.max()
-    begin = f"the soil bears the submerged weight of {found.weight / 1e3:.5g} kN"
-    if not found.weight:
-        begin = "the soil bears nothing, as no submerged weight is given (--weight)"
-    if is_missing:
-        begin = "the motion begins"
-    lines = [
-        f"caisson_mpm: {found.title}",
-        f"{'Pushed' if down else 'Pulled'} by {1e3 * found.displacement[-1]:.4g} mm"
-        f" from {found.depth:.5g} m, where {begin}.",
-        about_parts(found),
-        f"Largest resistance {found.force[largest] / 1e3:.4g} kN at"
-        f" {1e3 * found.displacement[largest]:.3g} mm.",
-    ]
-    for share in SMALL:
-        if np.isfinite(stiffness := found.stiffness(share)):
-            lines.append(
-                f"Secant stiffness at {1e3 * share * found.diameter:.3g} mm"
-                f" ({100 * share:g} % of the diameter): {stiffness / 1e6:.4g} MN/m."
-            )
-    if found.growth > STILL_GROWS:
-        lines.append(
-            f"WARNING: the resistance still grows at the end, by"
-            f" {100 * found.growth:.2g} % in the last tenth of the motion: the largest"
-            " one is no ultimate. Move the caisson farther."
-        )
-    if is_missing:
-        lines.append(
-            f"WARNING: at the beginning the soil bears {found.missing / 1e3:.4g} kN"
-            f" {'more' if down else 'less'} than the weight, so that the curves lack"
-            f" this part. Let the run {'un' if down else ''}load the caisson to its"
-            " weight first, or give its --weight."
-        )
-    return lines + about_waves(found)
-
-
-def about_parts(found: Springs) -> str:
-    """Return how many springs the walls have, and what area and depth they cover."""
-    texts = []
+    parts = []
     for wall in WALLS:
-        parts = [spring for spring in found.springs if spring.place == wall]
-        if parts:
-            depths = [spring.depth for spring in parts]
-            texts.append(
-                f"{len(parts)} on {sum(spring.area for spring in parts):.4g} of the"
-                f" {found.walls[wall]:.4g} m2 of the {wall} wall, with mean depths from"
-                f" {min(depths):.2g} to {max(depths):.2g} m"
-            )
-    return f"Springs: {'; '.join(texts) or 'none on the walls'}."
+        if of_wall := [spring for spring in found.springs if spring.place == wall]:
+            area, depths = sum(s.area for s in of_wall), [s.depth for s in of_wall]
+            parts.append((wall, len(of_wall), area, depths))
+    stiffness = [(share, found.stiffness(share)) for share in SMALL]
+    is_missing = found.missing > 0.02 * found.force.max()
+    said = lines("springs", found, parts, stiffness, is_missing, STILL_GROWS)
+    return [f"caisson_mpm: {found.title}", *said, *about_waves(found)]
 
 
 def about_waves(found: Springs) -> list[str]:
@@ -73,37 +42,23 @@ def about_waves(found: Springs) -> list[str]:
     first = 1e3 * SMALL[0] * found.diameter
     if reach >= needed or first > 1e3 * found.displacement[-1]:
         return []
-    if np.isnan(reach):
-        return [
-            "WARNING: a layer above the tip has a law without a Young's modulus, so"
-            " that nothing says whether waves have gone far enough. Compare with a run"
-            " that moves at half the speed."
-        ]
     far = found.reach >= needed
-    curve = "the whole curve contains"
-    if far.any():
-        end = 1e3 * found.displacement[np.argmax(far)]
-        curve = f"the curve below {end:.2g} mm contains"
-    return [
-        f"WARNING: when the caisson has moved by {first:.3g} mm, a shear wave has gone"
-        f" {reach:.2g} m from the wall, and the soil within {needed:.2g} m must take"
-        f" part: {curve} its inertia. Multiply Time/Inertia tolerance or Time/Mass"
-        f" scaling by {(reach / needed) ** 2:.1g}, or move the caisson more slowly."
-    ]
+    end = 1e3 * found.displacement[np.argmax(far)] if far.any() else None
+    return [say(WORDS, "waves", first, reach, needed, end)]
 
 
 def about_both(found: Springs, other: Springs | None) -> list[str]:
     """Return what the run is, and the one beside it."""
-    lines = about_springs(found)
+    said = about_springs(found)
     if other is None:
-        return lines
-    lines += ["Beside it:", *about_springs(other)]
+        return said
+    said += ["Beside it:", *about_springs(other)]
     if abs(other.depth - found.depth) > SAME_DEPTH * found.depth:
-        lines.append(
+        said.append(
             f"WARNING: the tips are at {found.depth:.4g} m and {other.depth:.4g} m: a"
             " part of these differences is that of the depths."
         )
-    return lines
+    return said
 
 
 def rows_of(found: Springs) -> np.ndarray:
@@ -133,7 +88,7 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
     names += ["displacement_over_diameter", "resistance_kPa"]
     names += ["resistance_over_ultimate", "stress_kPa"]
     names += ["beside_resistance_kPa"] * (other is not None)
-    lines = []
+    rows = []
     for number, spring in enumerate(found.springs):
         compared = None if other is None else beside(found, other, number)
         for row in rows_of(found):
@@ -144,12 +99,52 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
             values.append((spring.before + found.direction * t) / 1e3)
             if compared is not None:
                 values.append(compared[row] / 1e3)
-            lines.append([spring.place, *(f"{v:.6g}" for v in values)])
-    table.write_csv(path, names, lines, [*about_both(found, other), *SIGNS])
+            rows.append([spring.place, *(f"{v:.6g}" for v in values)])
+    table.write_csv(path, names, rows, [*about_both(found, other), *SIGNS])
 
 
-SIGNS = (
-    "t of a wall and q of the tip: the resistance is the change of the stress since the"
-    " displacement began, against the motion; stress_kPa is the stress itself, upward"
-    " on the caisson. Both are effective. The ultimate is the largest of the curve.",
-)
+def draw_force(axes: Axes, found: Springs, style: str, name: str) -> None:
+    """Draw the resistance of the whole body and of tip and lid."""
+    at = 1e3 * found.displacement
+    axes.plot(at, found.force / 1e3, style, color="black", label=f"total{name}")
+    for place, color in (("tip", "#c0392b"), ("lid", "#b9770e")):
+        for spring in found.springs:
+            if spring.place == place:
+                force = spring.area * spring.resistance / 1e3
+                axes.plot(at, force, style, color=color, label=f"{place}{name}")
+
+
+def draw_wall(axes: Axes, found: Springs, style: str, wall: str, name: str) -> None:
+    """Draw the curves of a wall, each with the color of its depth."""
+    for spring in found.springs:
+        if spring.place == wall:
+            color = colormaps["viridis"](1 - spring.depth / found.depth)
+            label = None if name else f"{spring.depth:.2g} m"
+            at = 1e3 * found.displacement
+            axes.plot(at, spring.resistance / 1e3, style, color=color, label=label)
+
+
+def draw(path: Path, found: Springs, other: Springs | None) -> None:
+    """Write the picture; the curves of the other run are dashed."""
+    figure = Figure(figsize=(13, 4.6), layout="constrained")
+    axes = figure.subplots(1, 3)
+    runs = [(found, "-", ""), (other, "--", ", beside")]
+    for run, style, name in runs:
+        if run is not None:
+            draw_force(axes[0], run, style, name)
+            for panel, wall in zip(axes[1:], WALLS):
+                draw_wall(panel, run, style, wall, name)
+    axes[0].set_ylabel("resistance (kN)")
+    axes[0].set_title("whole caisson", fontsize=10)
+    for panel, wall in zip(axes[1:], WALLS):
+        panel.set_ylabel("change of the shear stress (kPa)")
+        panel.set_title(f"{wall} wall", fontsize=10)
+    for panel in axes:
+        panel.set_xlabel("displacement (mm)")
+        panel.grid(color="0.9")
+        panel.legend(fontsize=8)
+    lines = [f"{found.title} (full lines)"]
+    if other is not None:
+        lines.append(f"{other.title} (dashed)")
+    figure.suptitle("\n".join(lines), fontsize=9)
+    disk.save(figure, path)

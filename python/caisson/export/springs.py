@@ -27,7 +27,7 @@ from caisson.verdict.loaded import LoadedRun
 from caisson.units import GRAVITY, WATER_DENSITY
 from caisson.paths import without_user
 from caisson.results import ResultsError, Table
-from caisson.export.laws import POISSON, poisson_ratio, youngs_modulus
+from caisson.export.state import POISSON, poisson_ratio, youngs_modulus
 
 SAME = 1e-9  # m, of penetrations
 SAME_ROW = 1e-6  # m, of heights on the wall

@@ -8,17 +8,17 @@ import numpy as np
 from caisson.frame import Arrays, Frame
 from caisson.verdict.loaded import LoadedRun
 from caisson.results import ResultsError, Table
-from caisson.export.laws import youngs_modulus
 
 STRESS = ("rr", "zz", "tt", "rz")  # the order of the components, in frames too
 # fields that other ones contain, or that are no state of the soil
 LEFT_OUT = {"id", "velocity_m_s", "whole_volume_m3", "material", "displacement_m"}
 LEFT_OUT |= {"mean_stress_Pa", "deviator_Pa"}
-# these follow from the exported stress (tables.py)
+# these follow from the exported stress (files.py)
 LEFT_OUT |= {"vertical_effective_stress_kPa", "vertical_stress_over_stress_at_rest"}
 TOLERANCE = 1e-6  # m
 # Young's modulus over the norm of the stress, of soil whose law has none
 STIFFNESS = 1e3
+POISSON = 0.3  # of soil whose law does not say it
 
 
 @dataclass
@@ -155,6 +155,24 @@ def forces_at(history: Table, time: float) -> dict[str, float]:
     names = [n for n in history if n.endswith(("_force_N", "friction_N"))]
     forces = {name: float(history[name][row]) for name in names}
     return forces if any(forces.values()) else {}
+
+
+def poisson_ratio(layer: dict[str, Any]) -> float:
+    """Return Poisson's ratio of the law of a layer in run.json, or POISSON where it has
+    none."""
+    entries = {one["entry"]: one["value"] for one in layer.get("law_entries", [])}
+    known = layer.get("poisson_ratio", entries.get("Poisson ratio", POISSON))
+    return float(known)
+
+
+def youngs_modulus(layer: dict[str, Any]) -> float:
+    """Return Young's modulus (Pa) of a layer in run.json, nan where its law has none.
+    That of a user material follows from the p-wave modulus of DDSDDE at the start."""
+    if "p_wave_modulus_Pa" in layer:
+        nu = poisson_ratio(layer)
+        ratio = (1 + nu) * (1 - 2 * nu) / (1 - nu)
+        return ratio * float(layer["p_wave_modulus_Pa"])
+    return float(layer.get("youngs_modulus_Pa", np.nan))
 
 
 def layers_of(

@@ -55,12 +55,8 @@ def columns_of(
     return {
         "depth_m": at,
         **{
-            f"expected_{name}_kPa": within(depth, expected.suction(line))
-            for name, line in (
-                ("low", expected.low),
-                ("best", expected.best),
-                ("high", expected.high),
-            )
+            f"expected_{name}_kPa": within(depth, suction)
+            for name, suction in expected.suctions.items()
         },
         "measured_kPa": within(bins.depth, measured),
         "forecast_low_kPa": within(forecast.depth, forecast.low),

@@ -75,6 +75,11 @@ class Expected:
         carried = self.weight if weight is None else weight
         return np.maximum((resistance - carried) / self.area, 0.0)
 
+    @property
+    def suctions(self) -> dict[str, np.ndarray]:
+        """The suction [n] (kPa) that low, best and high resistance take."""
+        return {name: self.suction(getattr(self, name)) for name in ESTIMATES}
+
     def halves(self, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how far low and high are from best in logarithms, at depths [m]."""
         down, up = np.log(self.best / self.low), np.log(self.high / self.best)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from caisson.design import cone_file, cone_grid
 from caisson.design.cone_table import Rows, cell_of, is_number, value_of
@@ -311,9 +312,7 @@ def progress_of(log: Log) -> np.ndarray:
     of single readings."""
     if not np.isfinite(log.time).all() or len(log.depth) < 5:
         return log.depth
-    ends = np.pad(log.depth, 2, mode="edge")
-    middle = np.median(np.lib.stride_tricks.sliding_window_view(ends, 5), axis=1)
-    return np.maximum.accumulate(middle)
+    return np.maximum.accumulate(median_filter(log.depth, 5, mode="nearest"))
 
 
 def weight_of(log: Log, expected: Expected) -> float:
@@ -382,15 +381,10 @@ def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
     return Bins(depths, forces, errors, tuple(map(float, some[~keep, 0])))
 
 
-def neighbors(values: np.ndarray) -> np.ndarray:
-    """Return the median of the values [n] within two places of each."""
-    near = (values[max(i - 2, 0) : i + 3] for i in range(len(values)))
-    return np.array([np.median(x) for x in near])
-
-
 def has_stop(times: np.ndarray) -> np.ndarray:
-    """Return which steps took much longer than those around. times: [n] (s), nan of a
-    log without."""
+    """Return which steps took much longer than those within two places of each. times:
+    [n] (s), nan of a log without."""
     if not np.isfinite(times).all():
         return np.zeros(len(times), dtype=bool)
-    return np.asarray(times > LONG * neighbors(times) + 1e-9)
+    near = (times[max(i - 2, 0) : i + 3] for i in range(len(times)))
+    return np.asarray(times > LONG * np.array(list(map(np.median, near))) + 1e-9)

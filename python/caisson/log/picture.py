@@ -26,9 +26,7 @@ FAR = 1.6  # times the largest required suction, beyond which a limit is only na
 def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
     """Draw the band of the runs and the allowable suction (kPa). most: of others."""
     depth = expected.depth
-    low, best, high = (
-        expected.suction(x) for x in (expected.low, expected.best, expected.high)
-    )
+    low, best, high = expected.suctions.values()
     axes.fill_betweenx(
         depth, low, high, color=GRAY, alpha=0.2, lw=0, label="expected, low to high"
     )

@@ -30,8 +30,7 @@ def rows_of(expected: Expected) -> list[list[float]]:
     end, in m and kPa, nan below the runs."""
     depth = expected.depth
     at = evaluation.depths_of(np.append(depth, max(expected.planned, depth[-1])))
-    lines = (expected.low, expected.best, expected.high)
-    columns = [expected.suction(line) for line in lines] + [expected.allowable]
+    columns = [*expected.suctions.values(), expected.allowable]
     found = [np.interp(at, depth, column, right=np.nan) for column in columns]
     return [list(map(float, row)) for row in zip(at, *found)]
 

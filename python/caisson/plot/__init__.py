@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from caisson import error_bounds
+from caisson import run_error_bar
 from caisson.command_line import for_each
 from caisson.results import Results, ResultsError
 from caisson.design import assumed, cone_options
@@ -32,7 +32,7 @@ def draw(directory: Path) -> list[Path]:
 
 def adopt_what_is_beside(directory: Path) -> None:
     """Keep the error bar and the cone test beside its scene with a run."""
-    error_bounds.adopt(directory)
+    run_error_bar.adopt(directory)
     if scene := str(Results(directory).known.get("scene_file") or ""):
         from caisson.design import cone
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from caisson.verdict.outcome import depth_of
 from caisson import curves, disk
 from caisson.curves import error_band, path_of, running_mean
-from caisson.plot import band
+from caisson.plot import soil_range
 from caisson.verdict import theory
 from caisson.plot.small import CAPTIONS, fade, in_units, legend_below
 from caisson.plot.small import over_depth, with_note
@@ -174,7 +174,9 @@ def draw_panel(
     if not friction_only:
         draw_error_bars(axes, run.error_bounds)
     set_limits(axes, depth, depth_of(run))
-    for end in [] if friction_only else band.draw(axes, run, "total_force_N", "total"):
+    for end in (
+        [] if friction_only else soil_range.draw(axes, run, "total_force_N", "total")
+    ):
         axes.set_xlim(right=max(1.05 * end.max(), axes.get_xlim()[1]))
     label_axes(axes, "wall friction" if friction_only else "force", run.body)
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from caisson.verdict.outcome import depth_of
 from caisson.evaluation import rest_of_run
-from caisson.plot import band as between
+from caisson.plot import soil_range
 from caisson.verdict import limits, suction_methods as methods, theory
 from caisson.curves import error_band, way_down
 from caisson.plot.forces import COLORS, draw_error_bar
@@ -172,7 +172,7 @@ def draw_suction(axes: Axes, run: Results, answers: methods.Answers) -> str:
     band = error_band(run.error_bounds, "required_suction", "Pa")
     draw_error_bar(axes, band, 1e-3, "black", ERROR_BAR)
     lines = [applied[depth <= (depth_of(run) or np.inf)]]
-    lines += between.draw(axes, run, "required_suction_Pa", "required")
+    lines += soil_range.draw(axes, run, "required_suction_Pa", "required")
     draw_required(axes, answers)
     draw_critical(axes, answers)
     known = [*answers.suctions.values()]

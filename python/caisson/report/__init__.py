@@ -8,7 +8,7 @@ import subprocess
 from math import inf
 from pathlib import Path
 
-from caisson import disk, error_bounds
+from caisson import disk, run_error_bar
 from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, adopt_what_is_beside, draw, keep_methods
 from caisson.results import Results, ResultsError
@@ -104,7 +104,7 @@ def main(options: argparse.Namespace) -> int:
         if options.jacked is not None:
             relief.adopt(options.jacked, directory)
         if options.error_bar is not None:
-            error_bounds.adopt(directory, options.error_bar)
+            run_error_bar.adopt(directory, options.error_bar)
         trace.keep(directory, options.author, options.checked)
         print(f"report: {(path := write(directory, options.rate))}")
         if options.pdf:

@@ -13,7 +13,7 @@ from caisson.band import band_of
 from caisson.curves import error_band
 from caisson.plot import forces
 from caisson.verdict import design, run_review, suction_methods, theory
-from caisson.plot.band import LABEL, range_of
+from caisson.plot.soil_range import LABEL, range_of
 from caisson.verdict.limits import BOILING, LID, LIMITS
 from caisson.plot.suction import ALLOWABLE, CRITICAL, WIDE_COLOR, color_of
 from caisson.results import Results, Table

@@ -75,7 +75,7 @@ def by_hand(
     nothing where no hand method knows the ground. texts: the scenes by estimate; cost:
     what the program says of it; estimates: of which scenes are to be written; test: the
     table of a cone test. Raises SuggestError where a scene does not run."""
-    from caisson.report import band as ends
+    from caisson.report import low_and_high
     from caisson.report import page, verdict
     from caisson.verdict import by_hand as methods
     from caisson.verdict.installation import Rate
@@ -113,6 +113,8 @@ def by_hand(
         except ResultsError as error:
             print(f"no page: {error}")
             return ""
-        for line in filter(None, [*verdict.lines_of(best), ends.sentence_of(best)]):
+        for line in filter(
+            None, [*verdict.lines_of(best), low_and_high.sentence_of(best)]
+        ):
             print(line)
     return found

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from caisson import needed
+from caisson.disk import is_locked
 from caisson.curves import depth_at
 from caisson.frame import Frame, choose
-from caisson.lock import is_locked
 from caisson.verdict import outcome
 from caisson.results import Results, ResultsError, Table
 from caisson.units import unit_of

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from caisson import error_bounds
-from caisson.error import command, error_bar
+from caisson import run_error_bar, study_command
+from caisson.error_bars import command, bar_study
 from caisson.progress import duration
 from caisson.study import Options, Study, StudyError
 
@@ -42,11 +42,11 @@ def error_of(text: str) -> float:
 def errors_by_term(study: Study) -> dict[str, float]:
     """Return the errors of the total force that are not exceeded at nine tenths of the
     depths: by term, of all terms, and of all but the mesh."""
-    depths, errors = error_bar.depths_of(study), study.keys["errors"]
-    terms = [error_bar.term_errors(term, study, depths) for term in errors]
+    depths, errors = bar_study.depths_of(study), study.keys["errors"]
+    terms = [bar_study.term_errors(term, study, depths) for term in errors]
     bars = {term["name"]: bar for term, bar in zip(errors, terms)}
-    bars[ALL] = error_bar.combined(terms)
-    bars[NOT_MESH] = error_bar.combined(terms[1:])
+    bars[ALL] = bar_study.combined(terms)
+    bars[NOT_MESH] = bar_study.combined(terms[1:])
     return {
         name: float(np.percentile(bar["total"].max(axis=0), SHARE))
         for name, bar in bars.items()
@@ -78,7 +78,7 @@ def mesh_for(
     runs go to the directory. Raises RunError and StudyError, also where the budget (s)
     ends before."""
     directory.mkdir(parents=True, exist_ok=True)
-    bar = (directory / error_bounds.NAME).resolve()
+    bar = (directory / run_error_bar.NAME).resolve()
     plan = command.Plan(scene, directory, bar, np.inf)
     left, names, reached = budget, dict[float, str](), ""
     for r in plan.chosen:
@@ -92,7 +92,7 @@ def mesh_for(
         left -= cost
         names[r] = f"refinement {r:g}"
         study = plan.study(names)
-        plan.execute(study.runs)
+        plan.run_missing(study, study_command.ALL)
         if len(names) < 2:
             continue
         study.run(names[r]).name = command.DEFAULT  # the finest one
@@ -101,7 +101,7 @@ def mesh_for(
         errors = errors_by_term(study)
         print(f"refinement {r:g}: error of the total force {in_percent(errors[ALL])}")
         if errors[ALL] <= wanted:
-            error_bar.evaluate([study], Options(), 0)
+            bar_study.evaluate([study], Options(), 0)
             return plan.mesh(r), bar
         check_mesh_matters(errors, wanted)
         reached = f"; {in_percent(errors[ALL])} are reached"

@@ -16,9 +16,9 @@ import numpy as np
 from synthetic import write_run
 
 from caisson import __main__ as program
-from caisson import error_bounds, parameters, progress, runs, study_command
-from caisson.parameters import effects, pictures, tables
-from caisson.parameters.outcome import Outcomes
+from caisson import progress, run_error_bar, runs, study_command, uncertain
+from caisson.uncertain import effects, pictures, tables
+from caisson.uncertain.outcome import Outcomes
 from caisson.ranks import cores
 from caisson.results import read_table
 from caisson.runner import Run
@@ -209,7 +209,7 @@ class Commands(WithFiles):
         run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
         (self.path / "run.json").write_text('{"ranks": 3}', encoding="utf-8")
         run.restarts = True
-        of_study = runs.StudyRun("s", "", "", "", 0, {}, run)
+        of_study = runs.StudyRun("s", "", run)
         with mock.patch.object(run, "command", side_effect=RuntimeError) as command:
             self.assertRaises(RuntimeError, of_study.execute, True, None, 1)
         command.assert_called_once_with(3)
@@ -414,7 +414,7 @@ class Evaluation(WithFiles):
     def test_error_bar(self) -> None:
         """That of the scene, relative to the force."""
         found = self.outcomes(PHI + "values = [30]", "1e3 * d", {})
-        bar = error_bounds.beside(found.study.runs[0].run.scene)
+        bar = run_error_bar.beside(found.study.runs[0].run.scene)
         bar.write_text(
             "# fingerprint: x\npenetration_m,total_below,total_above\n"
             "1,0.1,0\n3,0.2,0.1\n"
@@ -438,7 +438,7 @@ class Evaluation(WithFiles):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
             options = Options(results=self.path / "results")
-            self.assertEqual(parameters.evaluate([found.study], options, 0), 0)
+            self.assertEqual(uncertain.evaluate([found.study], options, 0), 0)
         row = self.rows("table.csv")[1]
         self.assertAlmostEqual(float(row["penetration_by_weight_m"]), 2)
         self.assertAlmostEqual(float(row["required_suction_Pa at 1 m"]), -1e4)

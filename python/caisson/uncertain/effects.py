@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from caisson.parameters.distributions import is_number
-from caisson.parameters.entry import Parameter, Value, text_of
-from caisson.parameters.outcome import Outcome, Outcomes
-from caisson.parameters.sampling import LATIN, ONE
+from caisson.uncertain.distributions import is_number
+from caisson.uncertain.entry import Parameter, Value, text_of
+from caisson.uncertain.outcome import Outcome, Outcomes
+from caisson.uncertain.sampling import LATIN, ONE
 
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 ENOUGH = 20  # runs, of which the lowest is the quantile of 5 %

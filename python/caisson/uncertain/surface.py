@@ -21,10 +21,10 @@ from typing import Any
 import numpy as np
 
 from caisson import needed
-from caisson.parameters import effects
-from caisson.parameters.entry import Parameter, Sample
-from caisson.parameters.outcome import Outcome, Outcomes
-from caisson.parameters.sampling import latin
+from caisson.uncertain import effects
+from caisson.uncertain.entry import Parameter, Sample
+from caisson.uncertain.outcome import Outcome, Outcomes
+from caisson.uncertain.sampling import latin
 from caisson.results import ResultsError
 
 FEWEST = 10  # runs, below which there is no surface

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson import curves, disk
+from caisson import curves, disk, table
 from caisson.results import Results, ResultsError, Table, read_table
 
 NAME, HISTORY = "error_bar.csv", "history_error.csv"
@@ -91,10 +91,9 @@ def adopt(directory: Path, bar: Path | None = None) -> None:
         return
     text = disk.read_text(file, ResultsError)
     columns = bounds_of(run.history, read_table(file))
-    rows = zip(*columns.values())
-    lines = [",".join(f"{value:.10g}" for value in row) for row in rows]
     disk.write(directory / NAME, text)
-    disk.write(directory / HISTORY, "\n".join([",".join(columns), *lines]) + "\n")
+    rows = [[f"{value:.10g}" for value in row] for row in zip(*columns.values())]
+    table.write_csv(directory / HISTORY, list(columns), rows)
 
 
 def is_of(run: Results, bar: Path) -> bool:

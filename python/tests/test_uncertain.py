@@ -10,10 +10,10 @@ import numpy as np
 from scipy import stats
 
 from caisson import study_command
-from caisson.parameters import effects
-from caisson.parameters.distributions import Distribution
-from caisson.parameters.formula import Formula, FormulaError
-from caisson.parameters.sampling import correlations_of
+from caisson.uncertain import effects
+from caisson.uncertain.distributions import Distribution
+from caisson.uncertain.formula import Formula, FormulaError
+from caisson.uncertain.sampling import correlations_of
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pictures of a study of parameters: fan.png and tornado.png."""
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +8,11 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson.parameters import effects
-from caisson.parameters.effects import Effect
-from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import Outcome, Outcomes, title_of, unit_of, words_of
-from caisson.parameters.sampling import BASE, LATIN, ONE
+from caisson.uncertain import effects
+from caisson.uncertain.effects import Effect
+from caisson.uncertain.entry import text_of
+from caisson.uncertain.outcome import Outcome, Outcomes, title_of, unit_of, words_of
+from caisson.uncertain.sampling import BASE, LATIN, ONE
 from caisson import disk
 from caisson.plot.small import over_depth, with_note, write_beside
 
@@ -35,29 +34,18 @@ def draw_quantiles(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray |
     names, found = effects.spread(matrix)
     for outer, alpha in ((0, 0.22), (1, 0.35)):
         last = len(names) - 1 - outer
+        style = {"color": BLUE, "alpha": alpha, "linewidth": 0, "zorder": 2}
+        label = f"{names[outer]} to {names[last]}"
         axes.fill_betweenx(
-            outcomes.grid,
-            found[outer],
-            found[last],
-            color=BLUE,
-            alpha=alpha,
-            linewidth=0,
-            zorder=2,
-            label=f"{names[outer]} to {names[last]}",
+            outcomes.grid, found[outer], found[last], label=label, **style
         )
     middle: np.ndarray = found[len(names) // 2]
     axes.plot(middle, outcomes.grid, color="black", linewidth=1.8, label="median")
     return middle
 
 
-@dataclass(frozen=True)
-class Line:
-    """How the curve of one run is drawn; label: None where another line has it."""
-
-    outcome: Outcome
-    color: Any
-    style: str
-    label: str | None
+# the curve of a run and its style; its label is None where another one has it
+Line = tuple[Outcome, dict[str, Any]]
 
 
 def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
@@ -70,19 +58,18 @@ def lines_of_grid(outcomes: Outcomes) -> tuple[str, list[Line]]:
     values = {run.sample[parameter.name] for run in runs}
     ordered = sorted(values, key=lambda value: effects.order(parameter, value))
     colors = dict(zip(ordered, colormaps["viridis"](np.linspace(0, 0.8, len(values)))))
-    lines, shown = [], set()
-    for run in sorted(runs, key=lambda r: ordered.index(r.sample[parameter.name])):
-        value = run.sample[parameter.name]
-        label = None if value in shown else text_of(value)
-        lines.append(Line(run, colors[value], "-", label))
-        shown.add(value)
+    lines = list[Line]()
+    for value in ordered:
+        of_value = [run for run in runs if run.sample[parameter.name] == value]
+        for run, label in zip(of_value, [text_of(value), *[None] * len(of_value)]):
+            lines.append((run, {"color": colors[value], "label": label}))
     return parameter.label, lines
 
 
 def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
     """Return the title of the legend and the lines where one parameter changes at a
     time: a color for each, and a style for each of its values."""
-    base, lines = outcomes.all[0].sample, []
+    base, lines = outcomes.all[0].sample, list[Line]()
     for color, parameter in enumerate(outcomes.free):
         name = parameter.name
         runs = [r for r in outcomes.complete if r.sample[name] != base[name]]
@@ -92,9 +79,12 @@ def lines_of_one(outcomes: Outcomes) -> tuple[str, list[Line]]:
             style = STYLES[i % len(STYLES)]
             if len(outcomes.all) > MANY:
                 label, style = None if i else parameter.label, "-"
-            lines.append(Line(run, f"C{color % 10}", style, label))
+            how: dict[str, Any] = {"color": f"C{color % 10}", "linestyle": style}
+            how["label"] = label
+            lines.append((run, how))
     if outcomes.all[0].is_complete:
-        lines.append(Line(outcomes.all[0], "black", "-", BASE))
+        how = {"color": "black", "label": BASE, "linewidth": 2}
+        lines.append((outcomes.all[0], how))
     return "", lines
 
 
@@ -104,16 +94,9 @@ def draw_curves(axes: Axes, outcomes: Outcomes, scale: float) -> np.ndarray | No
     is_one = outcomes.sampling == ONE
     title, lines = (lines_of_one if is_one else lines_of_grid)(outcomes)
     drawn = []
-    for line in lines:
-        drawn.append(outcomes.values(line.outcome, outcomes.grid) * scale)
-        axes.plot(
-            drawn[-1],
-            outcomes.grid,
-            color=line.color,
-            linestyle=line.style,
-            linewidth=2 if line.label == BASE else 1.3,
-            label=line.label,
-        )
+    for outcome, how in lines:
+        drawn.append(outcomes.values(outcome, outcomes.grid) * scale)
+        axes.plot(drawn[-1], outcomes.grid, **{"linewidth": 1.3, **how})
     axes.legend(title=title)  # the title is kept when the legend is made again
     return drawn[-1 if is_one else len(drawn) // 2] if drawn else None
 
@@ -129,17 +112,9 @@ def draw_error(
     error = outcomes.error(outcomes.depths, values)
     if error is None:
         return NO_BAR
-    axes.errorbar(
-        values * scale,
-        outcomes.depths,
-        xerr=error * scale,
-        fmt="none",
-        ecolor="black",
-        capsize=3,
-        linewidth=1,
-        zorder=4,
-        label=BAR,
-    )
+    style = {"fmt": "none", "ecolor": "black", "capsize": 3, "linewidth": 1}
+    at = values * scale, outcomes.depths
+    axes.errorbar(*at, xerr=error * scale, zorder=4, label=BAR, **style)
     return "the error bar is that of the scene with its own entries"
 
 
@@ -173,14 +148,9 @@ def draw_fan(path: Path, outcomes: Outcomes) -> Path:
     middle = (draw_quantiles if is_latin else draw_curves)(axes, outcomes, scale)
     reference = outcomes.reference
     if reference is not None and reference.is_complete:
-        axes.plot(
-            outcomes.values(reference, outcomes.grid) * scale,
-            outcomes.grid,
-            color=RED,
-            linewidth=1.3,
-            linestyle="--",
-            label="the scene as it is",
-        )
+        values = outcomes.values(reference, outcomes.grid) * scale
+        style = {"color": RED, "linewidth": 1.3, "linestyle": "--"}
+        axes.plot(values, outcomes.grid, label="the scene as it is", **style)
     text = draw_error(axes, outcomes, middle, scale)
     old = axes.get_legend()
     title = old.get_title().get_text() if old is not None else ""
@@ -213,16 +183,11 @@ def draw_swings(axes: Axes, found: list[Effect], base: float, scale: float) -> N
             (effect.low, effect.high), effect.ends, (not effect.rises, effect.rises)
         )
         for result, value, is_larger in ends:
-            label = f"{'larger' if is_larger else 'smaller'} value"
-            axes.barh(
-                i,
-                (result - base) * scale,
-                left=base * scale,
-                color=RED if is_larger else BLUE,
-                height=0.6,
-                label=None if label in shown else label,
-            )
-            shown.add(label)
+            name = f"{'larger' if is_larger else 'smaller'} value"
+            color, label = RED if is_larger else BLUE, None if name in shown else name
+            style = {"left": base * scale, "height": 0.6, "color": color}
+            axes.barh(i, (result - base) * scale, label=label, **style)
+            shown.add(name)
             side = -1 if result == effect.low else 1
             at = (result * scale, i)
             write_beside(axes, text_of(value), at, side, fontsize=9)

@@ -19,8 +19,8 @@ Keys of the study beside the usual ones:
     depths = [1, 4]    where the term counts, if not everywhere (m)
     at = 2             the only depth at which the runs are compared, if one is (m)
 
-What the meshes make of it: caisson.error.mesh_error. The error of another term at a
-depth is
+What the meshes make of it: caisson.error_bars.mesh_error. The error of another term at
+a depth is
 
     factor * rms (F_from - F_to) / F_from    over 0.5 m about it
 
@@ -35,18 +35,17 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, disk, table
+from caisson import curves, table
 from caisson.paths import short
 from caisson.progress import duration
 from caisson.results import ResultsError, Table
-from caisson.error_bounds import FORCES, SUCTION, Quantity
+from caisson.run_error_bar import FORCES, SUCTION, Quantity
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
-from caisson.error.mesh_error import MeshError, mesh_error
+from caisson.error_bars.mesh_error import MeshError, mesh_error
 
 NAME = "error bar"
 STUDY_KEYS = {"output", "depths", "errors"}
-RUN_KEYS = set[str]()
 ERROR_WINDOW = 0.5  # m
 LEAST = 0.01  # of a force: less is chance
 SIDES = ("below", "above")
@@ -198,17 +197,15 @@ def file_columns(
 def write_file(
     path: Path, study: Study, depths: np.ndarray, bars: Errors, terms: list[Errors]
 ) -> None:
-    """Write the file that caisson.error_bounds reads."""
+    """Write the file that caisson.run_error_bar reads."""
     base = study.run("default")
     columns = file_columns(study, depths, bars, terms)
     of = "forces and suction" if len(bars) > len(FORCES) else "forces"
-    lines = [
-        f"# Errors of the {of} of {base.run.scene.name}, by caisson error-bar",
-        f"# fingerprint: {base.results.summary['fingerprint']}",
-        ",".join(columns),
-        *map(",".join, zip(*columns.values())),
+    remarks = [
+        f"Errors of the {of} of {base.run.scene.name}, by caisson error-bar",
+        f"fingerprint: {base.results.summary['fingerprint']}",
     ]
-    disk.write(path, "\n".join(lines) + "\n")
+    table.write_csv(path, list(columns), list(zip(*columns.values())), remarks)
 
 
 def minutes(run: StudyRun) -> str:

@@ -8,16 +8,16 @@ nearly none, by the method of Iman & Conover (1982, doi:10.1080/0361091820881226
 """
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from scipy import stats
 from scipy.stats import qmc
 
-from caisson.parameters.distributions import is_number
-from caisson.parameters.entry import Parameter, Sample, Value, read_all, text_of
-from caisson.parameters.formula import FormulaError
+from caisson.uncertain.distributions import is_number
+from caisson.uncertain.entry import Parameter, Sample, Value, read_all, text_of
+from caisson.uncertain.formula import FormulaError
 from caisson.runner import Run, RunError
 from caisson.study import StudyError, file_name
 
@@ -27,8 +27,6 @@ BASE = "base"  # the name of the run with which others are compared
 AS_IN_SCENE = "as in the scene"  # value of choices at the base of the scene
 FEWEST = 5  # samples
 LONGEST = 100  # characters of the name of a run
-
-SceneValue = Callable[[str], Value]  # of an entry of the scene
 
 
 def sampling_of(study: Mapping[str, Any], parameters: Sequence[Parameter]) -> str:
@@ -124,7 +122,24 @@ def latin(study: Mapping[str, Any], free: Sequence[Parameter]) -> Iterator[Sampl
         yield {parameter.name: value for parameter, value in zip(free, values)}
 
 
-def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
+def value_in(scene: Run, entry: str) -> Value:
+    """Return the value of an entry of a scene, which the program reads when it is first
+    asked for. Raises StudyError."""
+    try:
+        text = scene.in_effect.get(entry)
+    except RunError as error:
+        raise StudyError(f"the scene is refused: {error}") from error
+    except OSError as error:
+        raise StudyError(f"{scene.program} cannot be run: {error}") from error
+    if text is None:
+        raise StudyError(f"the program has no entry {entry}")
+    try:
+        return float(text)
+    except ValueError:
+        return {"true": True, "false": False}.get(text, text)
+
+
+def base_of(parameter: Parameter, scene: Run) -> Value:
     """Return the value of a parameter at the base: what it says, or the median of its
     distribution, or the value of the scene. Raises StudyError."""
     if parameter.base is not None:
@@ -140,7 +155,7 @@ def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
         return AS_IN_SCENE
     if parameter.times:
         return 1.0
-    found = {entry: scene_value(entry) for entry in parameter.entries}
+    found = {entry: value_in(scene, entry) for entry in parameter.entries}
     if len(set(found.values())) > 1:
         text = ", ".join(f"{entry} = {value}" for entry, value in found.items())
         raise StudyError(
@@ -150,11 +165,9 @@ def base_of(parameter: Parameter, scene_value: SceneValue) -> Value:
     return next(iter(found.values()))
 
 
-def one_at_a_time(
-    free: Sequence[Parameter], scene_value: SceneValue
-) -> Iterator[Sample]:
+def one_at_a_time(free: Sequence[Parameter], scene: Run) -> Iterator[Sample]:
     """Yield the base, and it with one parameter changed, for each of its values."""
-    base = {parameter.name: base_of(parameter, scene_value) for parameter in free}
+    base = {parameter.name: base_of(parameter, scene) for parameter in free}
     yield base
     for parameter in free:
         for value in parameter.ends():
@@ -168,28 +181,16 @@ def grid(free: Sequence[Parameter]) -> Iterator[Sample]:
         yield {parameter.name: value for parameter, value in zip(free, values)}
 
 
-def samples_of(
-    study: Mapping[str, Any], parameters: Sequence[Parameter], scene_value: SceneValue
-) -> list[Sample]:
-    """Return all samples with the values of formulas. Raises StudyError."""
-    free = [p for p in parameters if p.formula is None]
-    sampling = sampling_of(study, parameters)
-    if sampling == LATIN:
-        samples = list(latin(study, free))
-    elif sampling == ONE:
-        samples = list(one_at_a_time(free, scene_value))
-    else:
-        samples = list(grid(free))
-    for sample in samples:
-        for parameter in parameters:
-            if parameter.formula is None:
-                continue
-            try:
-                value = parameter.formula.value(sample)
-            except FormulaError as error:
-                raise StudyError(f"parameter {parameter.name!r}: {error}") from error
-            sample[parameter.name] = float(f"{value:.6g}")
-    return samples
+def with_formulas(sample: Sample, parameters: Sequence[Parameter]) -> Sample:
+    """Return a sample with the values of formulas. Raises StudyError."""
+    for parameter in (p for p in parameters if p.formula is not None):
+        assert parameter.formula
+        try:
+            value = parameter.formula.value(sample)
+        except FormulaError as error:
+            raise StudyError(f"parameter {parameter.name!r}: {error}") from error
+        sample = {**sample, parameter.name: float(f"{value:.6g}")}
+    return sample
 
 
 def names_of(
@@ -216,38 +217,21 @@ def names_of(
     return names if is_clear and max(map(len, names)) <= LONGEST else numbers
 
 
-def scene_reader(scene: Run) -> SceneValue:
-    """Return what reads the value of an entry of the scene, with the program when it
-    is first asked for."""
-
-    def value(entry: str) -> Value:
-        try:
-            text = scene.in_effect.get(entry)
-        except RunError as error:
-            raise StudyError(f"the scene is refused: {error}") from error
-        except OSError as error:
-            raise StudyError(f"{scene.program} cannot be run: {error}") from error
-        if text is None:
-            raise StudyError(f"the program has no entry {entry}")
-        try:
-            return float(text)
-        except ValueError:
-            return {"true": True, "false": False}.get(text, text)
-
-    return value
-
-
 def runs_of(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
     """Return the runs of a study as a list of their keys: name, set, sample. Raises
     StudyError."""
     for key in {"depths", "tornado_depth"} & set(study):
         numbers_of(study, key)
     parameters = read_all(study.get("parameters"))
-    samples = samples_of(study, parameters, scene_reader(scene))
     free = [p for p in parameters if p.formula is None]
-    names = names_of(sampling_of(study, parameters), free, samples)
+    sampling = sampling_of(study, parameters)
+    if sampling == LATIN:
+        samples = list(latin(study, free))
+    else:
+        samples = list(one_at_a_time(free, scene) if sampling == ONE else grid(free))
     runs = []
-    for name, sample in zip(names, samples):
+    for name, sample in zip(names_of(sampling, free, samples), samples):
+        sample = with_formulas(sample, parameters)
         entries: dict[str, Any] = {}
         for parameter in parameters:
             entries |= parameter.set(sample[parameter.name])

@@ -20,7 +20,7 @@ import numpy as np
 from caisson import curves, disk, table
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, query, set_options
-from caisson.error_bounds import SUCTION
+from caisson.run_error_bar import SUCTION
 
 WIDTHS, SHARE_OF_MEAN = 10.0, 1 / 3
 NUMBERS = 4, 3, 2, 1  # of windows, the first as a rule

@@ -20,17 +20,17 @@ from typing import Any
 
 import numpy as np
 
-from caisson import disk, error_bounds, study_command
+from caisson import disk, run_error_bar, study_command
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import duration
 from caisson.ranks import Size
 from caisson.runner import Entries, Run, RunError, Status, read_parameters
-from caisson.runs import How, StudyRun, make, survey
+from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError
-from caisson.error import error_bar
-from caisson.error.windows import NUMBERS, Window, windows_of, write_means
+from caisson.units import SECONDS
+from caisson.error_bars import bar_study
+from caisson.error_bars.windows import NUMBERS, Window, windows_of, write_means
 
-UNITS = {"s": 1, "min": 60, "h": 3600}
 TIMES_THE_SCENE = 2  # the budget, if none is given
 DEFAULT = "default"  # the run that has the error bar
 SIZE = "size.json"  # of the scene, beside the runs
@@ -57,13 +57,13 @@ def seconds_of(text: str) -> float:
         raise argparse.ArgumentTypeError(
             f"{text!r} is not a duration such as 90s, 30min or 2h"
         )
-    return float(found[1]) * UNITS[found[2]]
+    return float(found[1]) * SECONDS[found[2]]
 
 
 def in_units(seconds: float) -> str:
     """Return a duration as seconds_of() reads it, rounded up."""
     unit = "s" if seconds < 60 else "min" if seconds < 5400 else "h"
-    return f"{math.ceil(seconds / UNITS[unit])}{unit}"
+    return f"{math.ceil(seconds / SECONDS[unit])}{unit}"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -78,8 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--output", type=Path, metavar="CSV", help=text)
     add("--overwrite", action="store_true", help="replace the file if it is there")
     add("--list", action="store_true", help="print the runs, and run nothing")
-    add("--again", action="store_true", help="repeat also runs that are complete")
-    study_command.add_machine_arguments(parser)
+    study_command.add_running_arguments(parser)
     text = "directory of the runs, default: results/error_bar/FILE"
     add("--results", type=Path, help=text)
 
@@ -267,7 +266,7 @@ class Plan:
 
     def keep_size(self) -> None:
         """Write the size of the scene for later calls."""
-        self.results.mkdir(parents=True, exist_ok=True)
+        disk.make_directory(self.results)
         key = self.run(DEFAULT, {}).run.key
         content = {"key": key, **dataclasses.asdict(self.size)}
         disk.write(self.results / SIZE, json.dumps(content))
@@ -289,7 +288,7 @@ class Plan:
         directory = (self.results / name.replace(" ", "_")).resolve()
         run = Run(self.scene, {**QUIET, **entries}, directory, program=self.program)
         known = {"windows": windows}
-        return StudyRun(self.scene.stem, name, "", "", 0, known, run, size=size)
+        return StudyRun(self.scene.stem, name, run, known, size=size)
 
     def parts_of(self, run: StudyRun) -> list[StudyRun]:
         """Return the runs that are made for a run: of its windows, or itself."""
@@ -386,24 +385,27 @@ class Plan:
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
 
-    def execute(self, runs: list[StudyRun], how: How = How()) -> None:
-        """Run what is not complete. Raises StudyError where a run has no result, or a
-        window does not reach its depth."""
+    def run_missing(self, study: Study, options: argparse.Namespace) -> int | None:
+        """Make what is not complete, and write the means of windows; return the exit
+        status of a part of the runs, else None. Raises StudyError where a run has no
+        result, or a window does not reach its depth."""
         self.keep_size()
-        parts = {run.name: self.parts_of(run) for run in runs}
+        parts = {run.name: self.parts_of(run) for run in study.runs}
         every = [part for of_run in parts.values() for part in of_run]
-        to_do = survey(every, how.again, resumes=True)
-        make(to_do, dataclasses.replace(how, needs_all=True))
+        status = study_command.run_missing(every, options, needs_all=True)
+        if status is not None:
+            return status
         if missing := [run for run in every if not run.run.is_complete()]:
             cause = next((run for run in missing if run.trouble), missing[0])
-            raise StudyError(f"{cause.name}: {cause.trouble}")
-        for run in runs:
+            raise StudyError(f"{cause.name}: {cause.words}")
+        for run in study.runs:
             if windows := run.settings["windows"]:
                 for part in parts[run.name]:
                     if part.status != Status.SUCCESS:
                         raise StudyError(f"{part.name} ended early, see {part.log}")
                 found = [part.results for part in parts[run.name]]
                 write_means(run.run, windows, self.depths, found)
+        return None
 
 
 def set_depths(study: Study, windowed: Sequence[float]) -> None:
@@ -435,7 +437,7 @@ def advise(plan: Plan, study: Study) -> None:
             "The budget allowed one window: its error stands for the whole way. More"
             " --budget gives more windows."
         )
-    if plan.output.resolve() != error_bounds.beside(plan.scene).resolve():
+    if plan.output.resolve() != run_error_bar.beside(plan.scene).resolve():
         print(f"Give it to the report: caisson report --error-bar {plan.output} DIR.")
     if plan.next:
         cost = duration(plan.seconds * plan.next**3)
@@ -458,7 +460,7 @@ def main(arguments: argparse.Namespace) -> int:
     plan = Plan(
         scene,
         arguments.results or RESULTS / "error_bar" / scene.stem,
-        arguments.output or error_bounds.beside(scene.resolve()),
+        arguments.output or run_error_bar.beside(scene.resolve()),
         arguments.budget,
         arguments.whole,
         arguments.program,
@@ -474,15 +476,15 @@ def main(arguments: argparse.Namespace) -> int:
     if arguments.list:
         return 0
     parts = (part for run in study.runs for part in plan.parts_of(run))
-    is_kept = not arguments.overwrite and plan.output.exists()
+    is_kept = not (arguments.overwrite or arguments.part) and plan.output.exists()
     if is_kept and not all(part.run.is_complete() for part in parts):
         raise StudyError(
             f"{plan.output} exists. Choose --output, or replace it by --overwrite"
         )
-    how = How(arguments.again, arguments.jobs, arguments.dask)
-    plan.execute(study.runs, how)
+    if (status := plan.run_missing(study, arguments)) is not None:
+        return status
     set_depths(study, plan.depths)
     with disk.all_or_none(arguments.overwrite):
-        error_bar.evaluate([study], Options(), 0)
+        bar_study.evaluate([study], Options(), 0)
     advise(plan, study)
     return 0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the runs of a study of parameters have left, at common depths."""
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from caisson import curves, error_bounds
+from caisson import curves, run_error_bar, units
 from caisson.evaluation import rest_of_run
-from caisson.parameters.entry import Parameter, Sample, read_all
-from caisson.parameters.sampling import numbers_of, sampling_of
+from caisson.uncertain.entry import Parameter, Sample, read_all
+from caisson.uncertain.sampling import numbers_of, sampling_of
 from caisson.results import ResultsError, Table, read_table
 from caisson.runs import COMPLETE, FAILED, StudyRun
 from caisson.study import Study, StudyError
@@ -24,22 +25,42 @@ OBSERVED = (
     "total_force_N",
     "cavity_pressure_Pa",
 )
-SHOWN = {"_N": ("kN", 1e-3), "_Pa": ("kPa", 1e-3), "_m": ("m", 1.0), "_m3": ("m³", 1.0)}
+SHOWN = {"N": ("kN", 1e-3), "Pa": ("kPa", 1e-3), "m": ("m", 1.0), "m3": ("m³", 1.0)}
 
 
 @dataclass
 class Outcome:
-    """One run: what was varied, how it ended, and what it has computed."""
+    """One run: how it ended, and what it has computed. status: COMPLETE, FAILED or why
+    there is nothing; why: of a failure."""
 
-    name: str
-    sample: Sample
-    status: str  # COMPLETE, FAILED or why there is nothing
-    why: str  # of a failure
-    history: Table | None
     run: StudyRun
-    wall: float | None  # s
-    is_reference: bool
-    warnings: tuple[str, ...] = ()  # about its results
+    status: str
+    why: str
+    history: Table | None
+
+    @property
+    def name(self) -> str:
+        """The name of the run."""
+        return self.run.name
+
+    @property
+    def is_reference(self) -> bool:
+        """Whether it is the scene as it is."""
+        return "sample" not in self.run.settings
+
+    @property
+    def sample(self) -> Sample:
+        """What was varied."""
+        return dict(self.run.settings.get("sample", {}))
+
+    @functools.cached_property
+    def warnings(self) -> list[str]:
+        """What speaks against its results."""
+        try:
+            found = run_review.warnings_of(self.run.results) if self.history else {}
+        except ResultsError:
+            return []
+        return list(found.get("result", []))
 
     @property
     def is_complete(self) -> bool:
@@ -70,14 +91,6 @@ class Outcome:
         return float(passes[np.argmin(np.abs(passes - rest))])
 
 
-def warnings_of(run: StudyRun) -> tuple[str, ...]:
-    """Return what speaks against the results of a run."""
-    try:
-        return tuple(run_review.warnings_of(run.results)["result"])
-    except ResultsError:
-        return ()
-
-
 def outcome_of(run: StudyRun) -> Outcome:
     """Return what a run has left."""
     status, why = run.outcome
@@ -89,19 +102,7 @@ def outcome_of(run: StudyRun) -> Outcome:
                 raise ResultsError("the body does not move")
         except ResultsError as error:
             status, why, history = FAILED, str(error), None
-    record = run.run.completion_record() or {}
-    sample = run.settings.get("sample")
-    return Outcome(
-        run.name,
-        sample or {},
-        status,
-        why,
-        history,
-        run,
-        record.get("wall_s"),
-        is_reference=sample is None,
-        warnings=warnings_of(run) if history is not None else (),
-    )
+    return Outcome(run, status, why, history)
 
 
 def curve_of(history: Table, column: str) -> tuple[np.ndarray, np.ndarray]:
@@ -119,17 +120,13 @@ def values_at(history: Table, column: str, depths: np.ndarray) -> np.ndarray:
 def unit_of(column: str) -> tuple[str, float]:
     """Return the unit in which a column of history.csv is shown, and what its values
     are multiplied by."""
-    for ending, shown in SHOWN.items():
-        if column.endswith(ending):
-            return shown
-    return "", 1.0
+    return SHOWN.get(units.unit_of(column), ("", 1.0))
 
 
 def words_of(column: str) -> str:
     """Return a column of history.csv in words, without its unit."""
-    for ending in SHOWN:
-        column = column.removesuffix(ending)
-    return column.replace("_", " ")
+    name, unit = units.split(column)
+    return (name if unit in SHOWN else column).replace("_", " ")
 
 
 def title_of(column: str) -> str:
@@ -234,13 +231,13 @@ class Outcomes:
         """Return how far the truth may lie below and above [2, n_depths], by the error
         bar beside the scene, for its numerics; None where there is none. values: of
         what is observed."""
-        every = error_bounds.QUANTITIES.values()
+        every = run_error_bar.QUANTITIES.values()
         named = [q for q in every if q.column() == self.column]
         outcome = next(o for o in [*self.all, self.reference] if o and o.history)
         if not named:
             return None
         try:
-            bar = read_table(error_bounds.beside(outcome.run.run.scene))
+            bar = read_table(run_error_bar.beside(outcome.run.run.scene))
             sides = [bar[named[0].bar_column(side)] for side in ("below", "above")]
         except ResultsError:
             return None

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from caisson import table
-from caisson.parameters import effects, surface
-from caisson.parameters.entry import text_of
-from caisson.parameters.outcome import (
+from caisson.uncertain import effects, surface
+from caisson.uncertain.entry import text_of
+from caisson.uncertain.outcome import (
     DEPTH,
     Outcome,
     Outcomes,
@@ -18,8 +18,8 @@ from caisson.parameters.outcome import (
     unit_of,
     words_of,
 )
-from caisson.parameters.sampling import LATIN, ONE
-from caisson.parameters.surface import Spread, Surfaces
+from caisson.uncertain.sampling import LATIN, ONE
+from caisson.uncertain.surface import Spread, Surfaces
 
 MOST_WARNINGS = 6  # that are printed
 RANKS = (
@@ -51,7 +51,8 @@ def row_of(outcomes: Outcomes, outcome: Outcome, has_rest: bool) -> list[str]:
     if has_rest:
         row.append(table.digits(outcome.rest))
     remark = "; ".join(filter(None, [outcome.why, *outcome.warnings]))
-    return [*row, table.digits(outcome.wall), remark]
+    record = outcome.run.run.completion_record() or {}
+    return [*row, table.digits(record.get("wall_s")), remark]
 
 
 def write_runs(path: Path, outcomes: Outcomes) -> Path:
@@ -64,8 +65,8 @@ def write_runs(path: Path, outcomes: Outcomes) -> Path:
     names += [f"largest_{column}", "depth_of_largest_m", "largest_penetration_m"]
     names += ["penetration_by_weight_m"] if has_rest else []
     names += ["wall_time_s", "remark"]
-    table.write_csv(path, names, [row_of(outcomes, run, has_rest) for run in runs])
-    return path
+    rows = [row_of(outcomes, run, has_rest) for run in runs]
+    return table.write_csv(path, names, rows)
 
 
 def write_fan(path: Path, outcomes: Outcomes) -> Path:
@@ -114,8 +115,7 @@ def write_surface(path: Path, found: Surfaces) -> Path:
     if (refusal := found.refusal) is not None:
         share = f"{refusal.probability:.3g}"
         rows.append(["refusal", "", "", share, "", "", str(refusal.runs), "logistic"])
-    table.write_csv(path, heads, rows)
-    return path
+    return table.write_csv(path, heads, rows)
 
 
 def lines(outcomes: Outcomes, depth: float | None) -> Iterator[str]:

@@ -25,14 +25,14 @@ time. All runs are checked before the first one starts. Results, besides those o
 runs, go to the directory of the study: table.csv, fan.csv, fan.png, tornado.png and, of
 a Latin hypercube, surface.csv: P5, P50 and P95 of the penetration by weight and of what
 is observed at the quarters of the planned penetration, and the probability of refusal,
-by a response surface (caisson.parameters.surface).
+by a response surface (caisson.uncertain.surface).
 """
 from collections.abc import Sequence
 from pathlib import Path
 
-from caisson.parameters import pictures, surface, tables
-from caisson.parameters.outcome import Outcomes
-from caisson.parameters.sampling import LATIN, runs_of
+from caisson.uncertain import pictures, surface, tables
+from caisson.uncertain.outcome import Outcomes
+from caisson.uncertain.sampling import LATIN, runs_of
 from caisson.paths import short
 from caisson.runs import StudyRun
 from caisson.study import Options, Study, StudyError, file_name
@@ -41,7 +41,6 @@ NAME = "parameters"
 STUDY_KEYS = set(
     "parameters sampling samples seed correlations observe depths tornado_depth".split()
 )
-RUN_KEYS = {"sample"}
 make_runs = runs_of
 
 

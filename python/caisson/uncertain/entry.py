@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from caisson.parameters.distributions import (
+from caisson.uncertain.distributions import (
     ALL_KEYS,
     Distribution,
     DistributionError,
     is_number,
     require,
 )
-from caisson.parameters.formula import Formula, FormulaError
+from caisson.uncertain.formula import Formula, FormulaError
 from caisson.paths import distinct_ends
 from caisson.runner import Entries
 from caisson.study import StudyError
@@ -89,13 +89,12 @@ def text_of(value: Value) -> str:
     return f"{value:.6g}" if is_number(value) else str(value)
 
 
-def check_values(values: object) -> tuple[Value, ...]:
+def check_values(values: Any) -> tuple[Value, ...]:
     """Return the values of a list."""
     require(
         isinstance(values, list) and len(values) > 0,
         f"values is {values!r}, not a list such as [28, 31, 34]",
     )
-    assert isinstance(values, list)
     for value in values:
         require(
             is_number(value) or isinstance(value, (bool, str)),
@@ -105,14 +104,13 @@ def check_values(values: object) -> tuple[Value, ...]:
     return tuple(values)
 
 
-def check_range(given: object) -> tuple[Value, ...]:
+def check_range(given: Any) -> tuple[Value, ...]:
     """Return the values of a range, both ends among them."""
     require(
         isinstance(given, dict) and {"from", "to", "n"} <= set(given) <= RANGE_KEYS,
         f"range is {given!r}; give {{from = 28, to = 36, n = 5}}, and logarithmic ="
         " true for equal ratios",
     )
-    assert isinstance(given, dict)
     first, last, n = given["from"], given["to"], given["n"]
     require(is_number(first) and is_number(last), "from and to are not both numbers")
     require(first < last, f"from is {first:g} and must be below to, {last:g}")
@@ -124,78 +122,68 @@ def check_range(given: object) -> tuple[Value, ...]:
     return tuple(rounded(x) for x in np.geomspace(first, last, n))
 
 
-def check_choices(given: object) -> dict[str, Entries]:
-    """Return the entries of each choice by its name."""
-    require(
-        isinstance(given, dict)
-        and len(given) > 0
-        and all(isinstance(entries, dict) for entries in given.values()),
-        f"choices is {given!r}; give {{loose = {{"
-        '"Soil/Layer 1/Porosity" = 0.42}, dense = {...}}',
-    )
-    assert isinstance(given, dict)
-    return given
-
-
-def check_times(given: object) -> dict[str, str]:
-    """Return what entries are, times the value of the parameter."""
-    require(
-        isinstance(given, dict) and len(given) > 0,
-        f'times is {given!r}; give {{"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}}',
-    )
-    assert isinstance(given, dict)
-    return {str(entry): str(text) for entry, text in given.items()}
-
-
 def entries_of(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the entries that a parameter sets: those it says, or that of its name."""
-    require(len(WHERE & set(given)) < 2, "give one of entry, entries and times")
     found = given.get("entries", given.get("entry", name if "/" in name else None))
     require(
         found is not None,
         'it says no entry: give entry = "Section/Entry", or use that as its name',
     )
-    if isinstance(found, str):
-        found = [found]
-    is_list = isinstance(found, list) and len(found) > 0
+    found = [found] if isinstance(found, str) else found
     require(
-        is_list and all(isinstance(entry, str) for entry in found),
+        isinstance(found, list)
+        and len(found) > 0
+        and all(isinstance(entry, str) for entry in found),
         f"entries is {found!r}, not a list of entries",
     )
     return tuple(found)
 
 
-def read(name: str, given: Mapping[str, Any]) -> Parameter:
-    """Return a parameter of a study. Raises DistributionError or FormulaError."""
+def check_keys(given: Any) -> str:
+    """Return the way in which a parameter is given: one of WAYS."""
     require(isinstance(given, dict), f"it is {given!r}, not a table")
     ways = [way for way in WAYS if way in given]
     require(len(ways) == 1, f"give one of {', '.join(WAYS)}, and only one")
-    way = ways[0]
-    known = {way, "base"} | (set() if way == "choices" else WHERE)
-    known |= ALL_KEYS if way == "distribution" else set()
+    known = {*ways, "base"} | (set() if ways == ["choices"] else WHERE)
+    known |= ALL_KEYS if ways == ["distribution"] else set()
     unknown = sorted(set(given) - known)
     require(
         not unknown,
         f"it has no key {', '.join(unknown)}; known: {', '.join(sorted(known))}",
     )
-    found: dict[str, Any] = {"name": name, "base": given.get("base")}
+    require(len(WHERE & set(given)) < 2, "give one of entry, entries and times")
+    return ways[0]
+
+
+def read(name: str, given: Any) -> Parameter:
+    """Return a parameter of a study. Raises DistributionError or FormulaError."""
+    way, found = check_keys(given), Parameter(name, base=given.get("base"))
+    what = given[way]
     if way == "choices":
-        found["choices"] = check_choices(given[way])
-        found["values"] = tuple(found["choices"])
-    elif "times" in given:
-        found["times"] = check_times(given["times"])
+        require(
+            isinstance(what, dict)
+            and len(what) > 0
+            and all(isinstance(entries, dict) for entries in what.values()),
+            f"choices is {what!r}; give {{loose = {{"
+            '"Soil/Layer 1/Porosity" = 0.42}, dense = {...}}',
+        )
+        return replace(found, choices=what, values=tuple(what))
+    if (times := given.get("times")) is not None:
+        require(
+            isinstance(times, dict) and len(times) > 0,
+            f'times is {times!r}; give {{"Soil/Layer 1/Cohesion" = "2e3 + 1.5e3*d"}}',
+        )
+        times = {str(entry): str(text) for entry, text in times.items()}
+        found = replace(found, times=times)
     else:
-        found["entries"] = entries_of(name, given)
-    if way == "values":
-        found["values"] = check_values(given[way])
-    elif way == "range":
-        found["values"] = check_range(given[way])
-    elif way == "formula":
-        found["formula"] = Formula(str(given[way]))
-    elif way == "distribution":
+        found = replace(found, entries=entries_of(name, given))
+    if way == "formula":
+        return replace(found, formula=Formula(str(what)))
+    if way == "distribution":
         keys = {k: v for k, v in given.items() if k in ALL_KEYS}
-        found["distribution"] = Distribution(given[way], keys)
-    return Parameter(**found)
+        return replace(found, distribution=Distribution(what, keys))
+    check = check_values if way == "values" else check_range
+    return replace(found, values=check(what))
 
 
 def read_all(tables: object) -> list[Parameter]:
@@ -226,12 +214,11 @@ def check_entries(parameters: list[Parameter]) -> None:
     for parameter in parameters:
         chosen = (entry for choice in parameter.choices.values() for entry in choice)
         for entry in {*parameter.entries, *parameter.times, *chosen}:
-            if entry in owner:
+            if (other := owner.setdefault(entry, parameter.name)) != parameter.name:
                 raise StudyError(
-                    f"the parameters {owner[entry]!r} and {parameter.name!r} set the"
-                    f" same entry {entry}"
+                    f"the parameters {other!r} and {parameter.name!r} set the same"
+                    f" entry {entry}"
                 )
-            owner[entry] = parameter.name
 
 
 def sorted_formulas(
@@ -239,8 +226,7 @@ def sorted_formulas(
 ) -> list[Parameter]:
     """Return the formulas, each after those that it needs. Raises StudyError."""
     names, done = {parameter.name for parameter in known}, list[Parameter]()
-    while len(done) < len(formulas):
-        left = [parameter for parameter in formulas if parameter not in done]
+    while left := [parameter for parameter in formulas if parameter not in done]:
         ready = [p for p in left if p.formula and p.formula.names <= names]
         if not ready:
             formula = left[0].formula

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs that belong to one scene, with their pages.
+
+A band: the scene and those of low and high resistance, at the same time, one core each;
+the page of the best one has all three. Phases (Installation/Phases): the scene and what
+follows it, one after the other; the page of the scene has a row for each phase.
+"""
+import argparse
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+from caisson import disk, phases, report
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
+from caisson.command_line import Parser
+from caisson.phases import END, ENTRY, Phase
+from caisson.progress import span
+from caisson.ranks import cores
+from caisson.results import ResultsError
+from caisson.runner import Run, RunError, Status
+from caisson.runs import How, StudyRun, make, survey
+
+AGAIN = "--overwrite computes the scene and its phases again"
+QUERIES = {"--validate", "--print-parameters", "--explain", "--version", "--help", "-h"}
+Draw = Callable[[Path, Path | None], None]
+Reporting = Callable[[Path], AbstractContextManager[None]]
+
+
+def options_of(
+    words: Sequence[str], taker: str = "--band", further: Sequence[str] = ()
+) -> argparse.Namespace:
+    """Return the options of the program that several runs take, with further ones; set
+    has the entries that they give. Raises RunError."""
+    parser = Parser(prog="caisson run", add_help=False, allow_abbrev=False)
+    for name in further:
+        parser.add_argument(name)
+    for name in ("--restart", "--overwrite"):
+        parser.add_argument(name, action="store_true")
+    parser.add_argument("--set", action="append", default=[])
+    found, other = parser.parse_known_args(words)
+    if other:
+        raise RunError(
+            f"{taker} takes {', '.join([*further, '--set'])}, --restart and"
+            f" --overwrite, not {other[0]}. Write the entries that you change into the"
+            " scenes"
+        )
+    pairs = (text.split("=", 1) for text in found.set if "=" in text)
+    found.set = {name.strip(): value.strip() for name, value in pairs}
+    return found
+
+
+def what_becomes_of(member: StudyRun, is_to_do: bool) -> str:
+    """Return in words whether a run is computed, and from where."""
+    if not is_to_do:
+        ended = "complete" if member.status == Status.SUCCESS else "failed before"
+        return f"{ended}, and not repeated; --overwrite repeats it"
+    size = member.size
+    about = f", {span(size.least, size.seconds)}" if size.seconds else ""
+    if member.run.restarts:
+        return f"from its checkpoint{about}"
+    return f"from its start{about}{hint_on(member)}"
+
+
+def hint_on(member: StudyRun) -> str:
+    """Return how a run goes on where it can."""
+    return "; --restart resumes it" if member.run.has_checkpoint else ""
+
+
+def status_of(member: StudyRun) -> Status:
+    """Return the exit status of a run, a failure where it has left no record."""
+    if member.is_stopped:
+        return Status.STOPPED
+    return Status.FAILURE if member.status is None else member.status
+
+
+def scenes_of(best: Path) -> dict[str, Path]:
+    """Return the scenes of a band by estimate, as far as there are such. Raises
+    RunError without any beside the best one."""
+    members = {estimate: member_of(best, estimate) for estimate in ESTIMATES}
+    found = {e: path for e, path in members.items() if path.is_file()}
+    if BEST not in found:
+        raise RunError(f"there is no scene {best}")
+    if len(found) == 1:
+        raise RunError(
+            f"beside {best} there is neither {members[LOW].name} nor"
+            f" {members[HIGH].name}: caisson suggest --spread, or --low and --high,"
+            " writes them"
+        )
+    return found
+
+
+def compute_band(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool:
+    """Compute what is missing, one core each; return whether that was stopped. Raises
+    RunError where the program refuses a run."""
+    to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
+    for member in to_do:
+        if member.refusal:
+            raise RunError(member.refusal)
+        member.run.restarts = options.restart and member.run.has_checkpoint
+    for member in runs.values():
+        text = what_becomes_of(member, member in to_do)
+        print(f"run: {member.name}: {text}", flush=True)
+    try:
+        make(to_do, How(again=True, jobs=min(3, cores())))
+    except KeyboardInterrupt:
+        print("run: stopped; --restart resumes", file=sys.stderr)
+        return True
+    return False
+
+
+def run_band(
+    words: Sequence[str],
+    draw: Callable[[Path, None, bool], None],
+    reporting: Reporting,
+) -> int:
+    """Run a band and draw it, the best run last and in full; return the largest exit
+    status. words: the best scene, and options of the program; draw: draws a run;
+    reporting: renews the page of the best one as long as it runs. Raises RunError."""
+    best, options = Path(words[0]), options_of(words[1:])
+    directory, runs = Run(best, options.set).directory, dict[str, StudyRun]()
+    for estimate, scene in scenes_of(best).items():
+        place = member_of(directory, estimate).resolve()
+        runs[estimate] = StudyRun(
+            "run:", scene.stem, Run(scene.resolve(), options.set, place)
+        )
+    with reporting(runs[BEST].run.directory):
+        if compute_band(runs, options):
+            return Status.STOPPED
+    for estimate in (LOW, HIGH, BEST):
+        if estimate in runs and runs[estimate].status is not None:
+            draw(runs[estimate].run.directory, None, estimate == BEST)
+    for member in runs.values():
+        if member.trouble:
+            text = f"{member.trouble}{hint_on(member)}"
+            print(f"run: {member.name}: {text}", file=sys.stderr)
+    return max(map(status_of, runs.values()))
+
+
+def phases_asked_for(words: Sequence[str], entries: Mapping[str, str]) -> list[Phase]:
+    """Return the phases of a scene with these entries in effect; none where the words
+    behind it only ask something. Raises RunError where the scene cannot have them."""
+    found = phases.phases_in(entries.get(ENTRY, ""))
+    phases.refuse_faults(found, entries)
+    return [] if QUERIES & set(words) else found
+
+
+class Chain:
+    """The runs of a scene and its phases."""
+
+    def __init__(
+        self,
+        words: Sequence[str],
+        entries: Mapping[str, str],
+        ranks: int | None,
+        error_bar: Path | None,
+    ) -> None:
+        """words: the scene, and options of the program; entries: those in effect;
+        error_bar: of the scene."""
+        own = options_of(words[1:], ENTRY, ["--output-directory"])
+        self.given, self.again = own.set, bool(own.overwrite)
+        self.scene, self.entries = Path(words[0]).resolve(), entries
+        self.ranks, self.error_bar = ranks, error_bar
+        place = own.output_directory or entries["Output/Directory"]
+        self.directory = Path(place).resolve()
+        self.title = entries.get("Title") or self.scene.stem
+        self.phases = phases.phases_in(entries[ENTRY])
+
+    def member(self, name: str, directory: Path, **more: object) -> StudyRun:
+        """Return a run with further entries."""
+        entries = {**self.given, **more}
+        run = Run(self.scene, entries, directory, ranks=self.ranks or 1)
+        return StudyRun("run:", name, run, {"ranks": self.ranks} if self.ranks else {})
+
+    def refuse_way(self) -> None:
+        """Refuse phases that go where the mesh of the scene does not, before anything
+        is run. Raises RunError."""
+        deepest = phases.refuse_faults(self.phases, self.entries)
+        end = self.entries[END]
+        if deepest > (0.0 if end == "never" else float(end)):
+            try:
+                Run(self.scene, {**self.given, END: deepest}, self.directory).validate()
+            except RunError as error:
+                said = str(error).rpartition("bad input: ")[2].splitlines()[0]
+                raise RunError(f"{ENTRY} goes to {deepest:g} m: {said}") from error
+
+    def phase(self, number: int, before: Path) -> StudyRun:
+        """Return the run of a phase, of which the scene is number 1. Raises RunError
+        where the run before it cannot be read."""
+        part = self.phases[: number - 1]
+        name = phases.folder_of(part[-1], number)
+        try:
+            entries = phases.entries_of(part, before, self.entries, self.title)
+        except ResultsError as error:
+            raise RunError(f"{error}; {AGAIN}") from error
+        return self.member(name, self.directory / name, **entries)
+
+    def make(self, draw: Draw, reporting: Reporting) -> Status:
+        """Compute what is missing; return the status of the last run."""
+        member, was_made = self.member(self.scene.stem, self.directory), False
+        for number in range(1, len(self.phases) + 2):
+            if number > 1:
+                member = self.phase(number, member.run.directory)
+            again = self.again or was_made
+            is_new = compute(member, again, not was_made, reporting)
+            was_made = was_made or is_new
+            if number == 1 and self.directory.is_dir():
+                text = ", ".join(phase.text for phase in self.phases)
+                disk.write(self.directory / phases.LIST, f"{text}\n")
+            page = member.run.directory / report.NAME
+            if has_results(member) and (is_new or not page.is_file()):
+                draw(member.run.directory, self.error_bar if number == 1 else None)
+            if (status := status_of(member)) != Status.SUCCESS:
+                say_end(member)
+                break
+        return status
+
+    def main(self, draw: Draw, reporting: Reporting) -> int:
+        """Compute what is missing, and renew the page of the scene; return the exit
+        status of the last run. draw: draws a run, with an error bar; reporting: renews
+        a page as long as its run goes on."""
+        self.refuse_way()
+        status = self.make(draw, reporting)
+        if (self.directory / "history.csv").is_file():
+            print(f"report: {report.write(self.directory)}")
+        return status
+
+
+def compute(member: StudyRun, again: bool, resumes: bool, reporting: Reporting) -> bool:
+    """Compute a run unless it is complete; return whether that was done. resumes: from
+    a checkpoint, if there is one."""
+    to_do = survey([member], again, resumes)
+    words = "" if to_do else f": {what_becomes_of(member, False)}"
+    print(f"run: {member.name}{words}", flush=True)
+    if to_do:
+        try:
+            with reporting(member.run.directory):
+                make(to_do, How(again=True))
+        except KeyboardInterrupt:
+            member.is_stopped = True
+    return bool(to_do)
+
+
+def has_results(member: StudyRun) -> bool:
+    """Return whether a run has left something to draw: one that was refused has not,
+    though its folder may have what another one has left."""
+    history = member.run.directory / "history.csv"
+    return history.is_file() and (member.is_stopped or member.status is not None)
+
+
+def say_end(member: StudyRun) -> None:
+    """Say why no phase follows a run that has not succeeded."""
+    why = member.trouble or f"{member.last_words}, see {member.log}"
+    if member.is_stopped:
+        why = "stopped; the same command goes on"
+    elif member.run.entries.get("Installation/Directory") and not has_results(member):
+        why = f"{why} {AGAIN}"
+    print(f"run: {member.name}: {why}", file=sys.stderr)
