@@ -3,6 +3,7 @@
 import json
 import unittest
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_run
@@ -71,6 +72,17 @@ class Layers(WithPage):
         self.assertEqual(sand_row["from (m)"], "10")
         table = layers.layers_table(Results(self.path))
         self.assertEqual(table["heads"], ["layer", "1", "2"])
+
+    def test_assumed_strength(self) -> None:
+        """Only what decides it counts: sand with a given angle has the cohesion 0."""
+        sand = {"top_depth_m": 0, "law": "Mohr-Coulomb", "friction_angle_deg": 34}
+        run = self.run_of([sand, {**sand, "top_depth_m": 5.0, "cohesion_Pa": 2e3}])
+        for entry, marks in (("Cohesion", [False, True]), ("Friction angle", [True] * 2)):
+            every = [f"Soil/Layer {i}/{entry}" for i in (1, 2)]
+            with mock.patch.dict(run.summary, {"assumed": every}):
+                table = layers.soil_table(run)
+            place = table["heads"].index("strength")
+            self.assertEqual([row[place][1] for row in table["rows"]], marks)
 
     def test_curve_over_depth(self) -> None:
         """Only the range is said, down to the skirt."""

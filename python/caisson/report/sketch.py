@@ -118,7 +118,7 @@ class Drawing:
 def about_layer(run: Results, layer: Layer, width: float) -> str:
     """Return the most important numbers of a layer, as many as are not wider (pixels):
     the table beside it has all."""
-    strength = strength_of(run, layer)
+    strength = ", ".join(strength_of(run, layer).values())
     words = [f"layer {layer.number}", strength.partition(" (")[0]]
     weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
     words = [word for word in (*words, f"γ′ {weight}" if weight else "") if word]
