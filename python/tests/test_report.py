@@ -258,11 +258,13 @@ class Report(WithPage):
             "mass_scaling": [14.6411, 2233.2],
             "scene": scene,
             "assumed": assumed,
+            "scene_file": "/home/me/mine.prm",
         }
         page = self.page(summary)
         body = html.unescape(re.sub("<[^>]*>", " ", page.split("</style>")[1]))
         text = re.sub(r"\s+", " ", body)
         for words in (
+            "Scene: mine.prm Computed",
             "Outer diameter 10 m",
             "Wall thickness 40 mm",
             "Weight in water 1000 kN",

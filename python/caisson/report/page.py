@@ -239,7 +239,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
     return {
         "title": run.summary.get("title"),
         "next": run.summary.get("next"),
-        "job": say_rows(SENTENCES, "job", run, layers.use_of(run)),
+        "job": say_rows(SENTENCES, "job", run, scene.file_of(run), layers.use_of(run)),
         "warnings": run_review.warnings_of(run, end),
         "entries": scene.entries_of(run),
         "defaults": scene.defaults_of(run),
