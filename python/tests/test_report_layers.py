@@ -104,8 +104,16 @@ class Layers(WithPage):
         run = self.run_of([*clay(), {**SAND, "top_depth_m": 2.0}])
         drawn = sketch.of_run(run, 4.5, None)
         self.assertEqual(drawn.count('<rect class="soil'), 2)
-        self.assertIn("D_r = 95 %", drawn)
-        self.assertIn("s_u = 2 + 1.5 d kPa", drawn)
+        self.assertIn("Dᵣ = 95 %", drawn)
+        self.assertIn("sᵤ = 2 + 1.5 d kPa", drawn)
+        self.assertNotIn("<line", drawn.partition("<text")[2])  # across no text
+
+    def test_narrow_sketch(self) -> None:
+        """Where the words on the rest are wider than the caisson there are fewer."""
+        run = self.run_of(clay())
+        self.assertIn("rests by weight at 2.00 m", sketch.of_run(run, 4.5, 2.0))
+        with mock.patch.dict(run.scene, {"diameter_m": 3.0, "skirt_length_m": 12.0}):
+            self.assertIn(">rests at 2.00 m<", sketch.of_run(run, 11.0, 2.0))
 
 
 class Pulled(WithPage):
