@@ -13,8 +13,8 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 import caisson.report as report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
 from caisson.commands import run_band
-from caisson.plot import band as plotted
-from caisson.report import content, verdict
+from caisson.plot import charts
+from caisson.report import verdict
 from caisson.report.band import required_at
 from caisson.results import Results
 from caisson.runner import RunError
@@ -160,7 +160,7 @@ class Page(WithPage):
             ("required_suction_Pa", 10, 15),
             ("total_force_N", 1e3, 0),
         ):
-            depth, low, high = plotted.range_of(run, column) or [np.empty(0)] * 3
+            depth, low, high = charts.range_of(run, column) or [np.empty(0)] * 3
             self.assertAlmostEqual(depth[-1], 3.6, delta=0.02)
             expected = [
                 np.maximum(slope * factor * depth - by_weight, 0)
@@ -170,10 +170,13 @@ class Page(WithPage):
             for values, known in zip((low, high), expected):
                 error = np.abs(values - known)[inner].max()
                 self.assertLess(error, 1e-2 * slope)
-        axes = Figure().subplots()
-        self.assertEqual(len(plotted.draw(axes, run, "total_force_N", "total")), 2)
-        _, curve = content.range_curve(run, "total_force_N", "total")
-        self.assertTrue(curve["shade"])
+        areas, axes = (
+            charts.range_curve(run, "total_force_N", "total"),
+            Figure().subplots(),
+        )
+        self.assertTrue(areas[1]["shade"])
+        charts.draw(axes, areas)
+        self.assertEqual((len(axes.collections), len(axes.lines)), (2, 0))
 
     def test_of_a_study(self) -> None:
         """The runs of low, best and high in a study are a band, too."""
@@ -196,7 +199,7 @@ class Page(WithPage):
         leave_run(member_of(run.directory, LOW), other)
         page = report.write(run.directory).read_text(encoding="utf-8")
         self.assertNotIn("low resistance", page)
-        self.assertEqual(plotted.range_of(run, "total_force_N"), None)
+        self.assertEqual(charts.range_of(run, "total_force_N"), None)
 
     def test_stopped(self) -> None:
         """A run that was stopped says nothing of its resistance."""

@@ -14,6 +14,7 @@ import caisson.report as report
 from caisson import error_bounds
 from caisson.verdict import limits
 from caisson.results import Results
+from caisson.plot import charts
 from caisson.report import content, layers, methods, sketch
 from caisson.verdict import installation
 
@@ -153,28 +154,26 @@ class Cards(WithPage):
     def test_limits_beyond_the_chart(self) -> None:
         """The axis ends at 1.03 times 1.5 times the 30 kPa of the run."""
         shown = [
-            content.line(
-                "run", "black", np.array([0, 30.0]), np.arange(2.0), thick=True
-            )
+            charts.line("run", "black", np.array([0, 30.0]), np.arange(2.0), thick=True)
         ]
         found = installation.Installation(
             np.arange(2.0), {}, required=np.array([0, 30.0])
         )
-        shown.append(content.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
-        self.assertAlmostEqual(content.axis_end(shown), 46.35)
+        shown.append(charts.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
+        self.assertAlmostEqual(charts.axis_end(shown), 46.35)
         found.absent = ["pump: not given", "plug of clay: no clay"]
         for limit, words in ((46.0, ""), (47.0, "water boils at 47 kPa")):
             found.limits = {limits.BOILING: np.full(2, limit)}
-            said = content.beyond_the_chart(found, shown, 1.0)
+            said = charts.beyond_the_chart(found, shown, 1.0)
             self.assertIn(words, said)
             self.assertEqual("Beyond" in said, bool(words))
             for kind in found.absent:
                 self.assertIn(kind, said)
         found.lid = 1.4
-        self.assertIn("lid at about 1.4 m", content.beyond_the_chart(found, shown, 1.0))
+        self.assertIn("lid at about 1.4 m", charts.beyond_the_chart(found, shown, 1.0))
         allowable = np.full(2, 60.0), np.arange(2.0)
-        shown.append(content.line("allowable", "red", *allowable, full=True))
-        self.assertAlmostEqual(content.axis_end(shown), 61.8)
+        shown.append(charts.line("allowable", "red", *allowable, full=True))
+        self.assertAlmostEqual(charts.axis_end(shown), 61.8)
 
     def test_card_of_the_methods(self) -> None:
         """The first ratio that there is at the end."""
@@ -297,10 +296,10 @@ class Cards(WithPage):
         }
         write_columns(self.path / "history_error.csv", bounds)
         run, numbers = Results(self.path), self.installation()
-        found = content.suction_curves(run, numbers, 1.5)  # where suction ends
+        found = charts.suction_curves(run, numbers, 1.5)  # where suction ends
         bars = [curve for curve in found if curve["label"] == "required, error bar"]
         self.assertEqual(max(bars[0]["y"]), 1.5)
-        found = content.suction_curves(run, numbers)
+        found = charts.suction_curves(run, numbers)
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
         for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
             self.assertAlmostEqual(bar["x"][i], expected[0])

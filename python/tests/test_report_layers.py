@@ -77,7 +77,10 @@ class Layers(WithPage):
         """Only what decides it counts: sand with a given angle has the cohesion 0."""
         sand = {"top_depth_m": 0, "law": "Mohr-Coulomb", "friction_angle_deg": 34}
         run = self.run_of([sand, {**sand, "top_depth_m": 5.0, "cohesion_Pa": 2e3}])
-        for entry, marks in (("Cohesion", [False, True]), ("Friction angle", [True] * 2)):
+        for entry, marks in (
+            ("Cohesion", [False, True]),
+            ("Friction angle", [True] * 2),
+        ):
             every = [f"Soil/Layer {i}/{entry}" for i in (1, 2)]
             with mock.patch.dict(run.summary, {"assumed": every}):
                 table = layers.soil_table(run)

@@ -11,7 +11,7 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.verdict import by_hand, design, suction_methods, theory
-from caisson.plot.suction import CRITICAL
+from caisson.plot.charts import CRITICAL
 from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
