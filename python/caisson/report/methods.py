@@ -216,44 +216,39 @@ def computed_at(run: Results, h: float) -> Forces | None:
     return Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
 
 
-def compared(run: Results, h: float) -> reasons.Compared | None:
-    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
-    answer there or the run lacks a force."""
+def of_byrne(run: Results, h: float) -> str:
+    """Return a sentence on where the run is beside Houlsby & Byrne at a depth, and why;
+    nothing where the method has no answer there or the run lacks a force."""
     site, at = theory.site_of(run), np.array([h])
     try:
         byrne = theory.houlsby_byrne_of(site, h)
     except theory.NotApplicable:
-        return None
+        return ""
     if (computed := computed_at(run, h)) is None:
-        return None
-    suction, flow, mine = 0.0, STILL, computed.total
+        return ""
+    suction, flow, mine, what = 0.0, STILL, computed.total, "force"
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
     if needs_suction(run):
         suction = mine = float(design.suction_at(run.history, at)[0])
         found = suction_methods.answers_of(site, at).suctions
         ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
-        flow = installation.seepage(
-            caisson, max(suction, 0.0), h, byrne.permeability_ratio
-        )
-    ratio = reasons.ratio_in_words(mine, *ends) if ends else ""
-    if not ratio:
-        return None
-    low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+        s, ratio = max(suction, 0.0), byrne.permeability_ratio
+        flow, what = installation.seepage(caisson, s, h, ratio), "suction"
+    if not ends or not reasons.ratio_in_words(mine, *ends):
+        return ""
+    cases = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+    name, both = suction_methods.HOULSBY_BYRNE, (mine, ends[0], ends[1])
+    beside = reasons.Compared(name, h, what, both, computed, *cases)
     frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
-    walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
+    k, k0 = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
-    return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
+    return reasons.of_houlsby_byrne(beside, suction, enhanced, (k, k0))
 
 
 def why_of(run: Results, at: np.ndarray) -> str:
-    """Return a sentence on where the run is beside Houlsby & Byrne, and why, at the
-    deepest of depths [n] (m) with an answer; nothing without one."""
-    answers = (compared(run, float(h)) for h in at[::-1])
-    found = next((answer for answer in answers if answer), None)
-    if found is None:
-        return ""
-    return reasons.of_houlsby_byrne(found)
+    """Return that sentence at the deepest of depths [n] (m) with an answer."""
+    return next(filter(None, (of_byrne(run, float(h)) for h in at[::-1])), "")
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
@@ -287,15 +282,13 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
         elif answer.method.bound or left is not None or answer.method.key == "clay":
             continue
         name = answer.name
-        by_cone = reasons.ByCone(name, h, what, ends, computed, low, high, left)
+        by_cone = reasons.Compared(name, h, what, ends, computed, low, high, left)
         if sentence := reasons.of_cone(by_cone):
             sentences.append(sentence)
-            causes[
-                reasons.of_cause(reasons.cause_by_cone(by_cone), h, walls_of(run, h))
-            ] = None
+            causes[reasons.of_cause(by_cone.cause, h, walls_of(run, h))] = None
     sentences += causes
     if any(sentences) and any(answer.assumed for answer in answers):
-        sentences.append(reasons.ASSUMED_CONE)
+        sentences.append(reasons.say("assumed_cone"))
     return [sentence for sentence in [*found, *sentences] if sentence]
 
 
