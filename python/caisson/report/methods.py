@@ -237,9 +237,9 @@ def of_byrne(run: Results, h: float) -> str:
         flow, what = installation.seepage(caisson, s, h, ratio), "suction"
     if not ends or not reasons.ratio_in_words(mine, *ends):
         return ""
-    cases = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+    low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
     name, both = suction_methods.HOULSBY_BYRNE, (mine, ends[0], ends[1])
-    beside = reasons.Compared(name, h, what, both, computed, *cases)
+    beside = reasons.Compared(name, h, what, both, computed, low, high)
     frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
     k, k0 = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
