@@ -12,9 +12,10 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import error_bounds
-from caisson.verdict import limits
+from caisson.verdict import limits, theory
 from caisson.results import Results
 from caisson.plot import charts
+from caisson.shown import USUAL
 from caisson.report import content, layers, methods, sketch
 from caisson.verdict import installation
 
@@ -177,35 +178,33 @@ class Cards(WithPage):
 
     def test_card_of_the_methods(self) -> None:
         """The first ratio that there is at the end."""
-        heads = ["depth (m)", "computed"]
-        heads += [f"computed / {name}" for name in "ABC"]
-        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
-        found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
+        heads, title = ["depth (m)", *"ABC"], "Computed / method: total force (kN)"
+        rows = [["4", "1", "2", "3"], ["4.5", "", "0.5 to 2", "3"]]
+        table = {"title": title, "heads": heads, "rows": rows}
+        found: dict[str, Any] = {"tables": [{}, table]}
         card = ["Computed / method", "0.5 to 2", "of B at 4.5 m"]
         self.assertEqual(methods.card_of(found), [card])
-        heads[2] = "computed / undisturbed"
-        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
-        found = {"tables": [{"heads": heads, "rows": rows}]}
+        heads[1] = "undisturbed"
+        table["rows"] = [["4", "1", "2", "3"], ["4.5", "5", "", ""]]
         card = ["Computed / method", "2", "of B at 4 m"]
         self.assertEqual(methods.card_of(found), [card])
         self.assertEqual(methods.card_of({"tables": []}), [])
 
     def test_tables_of_a_page(self) -> None:
         """Cases are a range, and ratios a table of their own."""
-        heads = ["depth (m)", "computed", "A, low", "A, high", "A, undisturbed"]
-        table = {
-            "title": "Total force (kN)",
-            "heads": [*heads, "computed / A"],
-            "rows": [["1", "9", "2", "3", "1", "3 to 4"], ["2", "9", "4", "4", "", ""]],
-        }
-        forces, of_method = methods.for_a_page(table)
+        depth, nan = {"depth (m)": np.array([1.0, 2.0])}, np.nan
+        cases = {"low": np.array([2e3, 4e3]), "high": np.array([3e3, 4e3])}
+        a = theory.Beside("A", cases, {"undisturbed": np.array([1e3, nan])})
+        found = methods.beside("Force (kN)", depth, np.full(2, 9e3), [a], USUAL)
+        heads = [table["heads"][1:] for table in found]
+        self.assertEqual(heads[0], ["computed", "A, low to high", "A, undisturbed"])
+        self.assertEqual(heads[1], ["A", "undisturbed"])
+        self.assertEqual(found[0]["rows"][0], ["1", "9", "2 to 3", "1"])
+        self.assertEqual(found[0]["rows"][1], ["2", "9", "4", ""])
+        self.assertEqual(found[1]["title"], "Computed / method: force (kN)")
         self.assertEqual(
-            forces["heads"], [*heads[:2], "A, low to high", "A, undisturbed"]
+            found[1]["rows"], [["1", "3.00 to 4.50", "9.00"], ["2", "2.25", ""]]
         )
-        self.assertEqual(forces["rows"][0], ["1", "9", "2 to 3", "1"])
-        self.assertEqual(forces["rows"][1], ["2", "9", "4", ""])
-        self.assertEqual(of_method["title"], "Computed / method: total force (kN)")
-        self.assertEqual(of_method["rows"], [["1", "3 to 4"], ["2", ""]])
 
     def test_stress_on_the_walls(self) -> None:
         """Of the frame at a depth: 30 and 60 kPa of 10 and 20 kPa at rest, and not

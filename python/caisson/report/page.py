@@ -201,11 +201,10 @@ def html(run: Results, rate: Rate) -> str:
             known |= of_installation(run, found, end, rate)
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
-        tables = [part for x in beside["tables"] for part in methods.for_a_page(x)]
         known |= {
             "verdict": band.verdict_with(run),
             "cards": band.cards_of(run, own) + methods.card_of(beside),
-            "methods": beside | {"tables": tables},
+            "methods": beside,
         }
     if run.scene or not run.is_running:
         known |= of_scene(run, end)
