@@ -12,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import error_bounds
-from caisson.verdict import limits, theory
+from caisson.verdict import limits, suction_methods, theory
 from caisson.results import Results
 from caisson.plot import charts
 from caisson.shown import USUAL
@@ -113,8 +113,13 @@ class Cards(WithPage):
         for wrong in ("(kN)", "(m)", " kN", "0.09 m"):
             found = re.findall(".{40}" + re.escape(wrong), words.replace("kN/m³", ""))
             self.assertEqual(found, [], wrong)
-        titles = [table["title"] for table in methods.methods_of(run)["tables"]]
-        self.assertIn("Required and critical suction (Pa)", titles)
+        tables = {table["title"]: table for table in methods.methods_of(run)["tables"]}
+        table = tables["Required and critical suction (Pa)"]
+        cells = dict(zip(table["heads"], table["rows"][-1]))
+        low = cells["required, Houlsby & Byrne (2005), low to high"].split()[0]
+        by_hand = suction_methods.answers_of(theory.site_of(run), np.array([0.09]))
+        needed = by_hand.suctions[suction_methods.LOW][0]
+        self.assertAlmostEqual(float(low) / needed, 1, 2)
         charts = content.figures_of(run, self.installation())
         self.assertEqual([c["axis"] for c in charts], ["suction (Pa)", "force (N)"])
         self.assertEqual({c["depth"] for c in charts}, {"mm"})

@@ -71,8 +71,12 @@ def shown_texts(values: Iterable[Any], factor: float) -> list[str]:
 def columns_of(method: theory.Beside, what: str, factor: float) -> dict[str, list[str]]:
     """Return the cases of a method (N or Pa) as text, its lower and its upper one as a
     range. what: before the name; factor: of what is shown in kN or kPa."""
+
+    def plain(values: np.ndarray) -> list[str]:
+        return shown_texts(values, 1.0)
+
     texts = {
-        case: or_piping(x / 1e3) if method.may_end else shown_texts(x / 1e3, factor)
+        case: (or_piping if method.may_end else plain)(factor * x / 1e3)
         for case, x in (method.cases | method.bounds).items()
     }
     low, high = method.cases
