@@ -13,8 +13,8 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 import caisson.report as report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
 from caisson.commands import run_several
-from caisson.plot import soil_range
-from caisson.report import content, verdict
+from caisson.plot import charts
+from caisson.report import verdict
 from caisson.report.low_and_high import required_at
 from caisson.results import Results
 from caisson.runner import RunError
@@ -58,9 +58,7 @@ class Estimates(unittest.TestCase):
         """At its points of 5 and 95 %, of words, numbers and expressions; a relative
         density is at most 1."""
         found = self.ends(SOIL, spread="Dr 20%, su 10%")
-        density = [
-            float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS
-        ]
+        density = [float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS]
         self.assertEqual(density, [0.3355, 0.6645])
         strength = [found[x][1].value("Cohesion") for x in low_and_high.SIGNS]
         words = [f"{factor}*(1000*(4 + 2*d))" for factor in (0.8355, 1.1645)]
@@ -162,7 +160,7 @@ class Page(WithPage):
             ("required_suction_Pa", 10, 15),
             ("total_force_N", 1e3, 0),
         ):
-            depth, low, high = soil_range.range_of(run, column) or [np.empty(0)] * 3
+            depth, low, high = charts.range_of(run, column) or [np.empty(0)] * 3
             self.assertAlmostEqual(depth[-1], 3.6, delta=0.02)
             expected = [
                 np.maximum(slope * factor * depth - by_weight, 0)
@@ -172,10 +170,13 @@ class Page(WithPage):
             for values, known in zip((low, high), expected):
                 error = np.abs(values - known)[inner].max()
                 self.assertLess(error, 1e-2 * slope)
-        axes = Figure().subplots()
-        self.assertEqual(len(soil_range.draw(axes, run, "total_force_N", "total")), 2)
-        _, curve = content.range_curve(run, "total_force_N", "total")
-        self.assertTrue(curve["shade"])
+        areas, axes = (
+            charts.range_curve(run, "total_force_N", "total"),
+            Figure().subplots(),
+        )
+        self.assertTrue(areas[1]["shade"])
+        charts.draw(axes, areas)
+        self.assertEqual((len(axes.collections), len(axes.lines)), (2, 0))
 
     def test_of_a_study(self) -> None:
         """The runs of low, best and high in a study are a band, too."""
@@ -198,7 +199,7 @@ class Page(WithPage):
         leave_run(member_of(run.directory, LOW), other)
         page = report.write(run.directory).read_text(encoding="utf-8")
         self.assertNotIn("low resistance", page)
-        self.assertEqual(soil_range.range_of(run, "total_force_N"), None)
+        self.assertEqual(charts.range_of(run, "total_force_N"), None)
 
     def test_stopped(self) -> None:
         """A run that was stopped says nothing of its resistance."""

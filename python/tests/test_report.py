@@ -44,6 +44,7 @@ SCENE: dict[str, Any] = {
     "submerged_weight_N": 1e6,
     "cavitation_suction_Pa": 394e3,
 }
+RATIO = "Computed / method: required"
 SUMMARY: dict[str, Any] = {
     "version": "0.1.0",
     "dealii_version": "9.4.1",
@@ -258,11 +259,13 @@ class Report(WithPage):
             "mass_scaling": [14.6411, 2233.2],
             "scene": scene,
             "assumed": assumed,
+            "scene_file": "/home/me/mine.prm",
         }
         page = self.page(summary)
         body = html.unescape(re.sub("<[^>]*>", " ", page.split("</style>")[1]))
         text = re.sub(r"\s+", " ", body)
         for words in (
+            "Scene: mine.prm Computed",
             "Outer diameter 10 m",
             "Wall thickness 40 mm",
             "Weight in water 1000 kN",
@@ -329,10 +332,11 @@ class Report(WithPage):
         leave_run(self.path, SUMMARY)
         found = methods.methods_of(Results(self.path))
         self.assertEqual(found["reasons"], [])  # nor that sand is no clay
-        self.assertIn("DNV (cone ASSUMED), highest", self.rows(found, "Force")[0])
-        name = "computed / Senders & Randolph (2009)"
-        self.assertIn(f"{name} (cone ASSUMED)", self.rows(found, "Req")[0])
-        self.assertNotIn(name, self.rows(found, "Req")[0])
+        name = "DNV (cone ASSUMED), most probable to highest"
+        self.assertIn(name, self.rows(found, "Force")[0])
+        name = "Senders & Randolph (2009)"
+        self.assertIn(f"{name} (cone ASSUMED)", self.rows(found, RATIO)[0])
+        self.assertNotIn(name, self.rows(found, RATIO)[0])
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertIn("The cone resistance is ASSUMED, as no cone test is given", page)
         self.assertIn("not near the mudline", page)
@@ -342,18 +346,17 @@ class Report(WithPage):
         self.assertEqual(found["reasons"], [])
         rows = self.rows(found, "Force of jacking")
         self.assertNotIn("computed", rows[2])
-        self.assertEqual(rows[2]["DNV, most probable"], "2816")
-        self.assertEqual(rows[3]["DNV, most probable"], "")
-        self.assertGreater(float(rows[3]["Houlsby & Byrne (2005), low"]), 0)
-        self.assertIn(
-            "computed / Senders & Randolph (2009)", self.rows(found, "Req")[2]
-        )
+        self.assertEqual(rows[2]["DNV, most probable to highest"], "2816 to 6195")
+        self.assertEqual(rows[3]["DNV, most probable to highest"], "")
+        low = rows[3]["Houlsby & Byrne (2005), low to high"].split()[0]
+        self.assertGreater(float(low), 0)
+        self.assertIn("Senders & Randolph (2009)", self.rows(found, RATIO)[2])
         page = report.write(self.path).read_text()
         self.assertIn("ends at 3.5 m", page)
         self.assertNotIn("(cone ASSUMED)", page)
 
     def test_computed_over_method(self) -> None:
-        """3000 kN at 3 m over 2816 and 7195 kN; 15 kPa required at 3 m."""
+        """3000 kN at 3 m over 2816 and 6195 kN; 15 kPa required at 3 m."""
         leave_run(self.path, SUMMARY)
         history = dict(Results(self.path).history)
         for name in [n for n in history if "suction" in n]:
@@ -364,13 +367,14 @@ class Report(WithPage):
         found = methods.methods_of(Results(self.path / "jacked"))
         row = self.rows(found, "Total force")[2]
         self.assertEqual(row["computed"], "3000")
-        self.assertEqual(row["computed / DNV"], "0.48 to 1.07")
-        row = self.rows(methods.methods_of(Results(self.path)), "Required")[2]
+        row = self.rows(found, "Computed / method: total")[2]
+        self.assertEqual(row["DNV"], "0.48 to 1.07")
+        found = methods.methods_of(Results(self.path))
+        row, name = self.rows(found, "Required")[2], "Houlsby & Byrne (2005)"
         self.assertEqual(row["computed"], "15")
-        name = "Houlsby & Byrne (2005)"
-        ends = [float(row[f"required, {name}, {case}"]) for case in ("high", "low")]
-        for text, end in zip(row[f"computed / {name}"].split(" to "), ends):
-            self.assertAlmostEqual(float(text), 15 / end, delta=0.02)
+        ends = row[f"required, {name}, low to high"].split(" to ")[::-1]
+        for text, end in zip(self.rows(found, RATIO)[2][name].split(" to "), ends):
+            self.assertAlmostEqual(float(text), 15 / float(end), delta=0.02)
         self.assertGreater(float(row["critical, Houlsby & Byrne (2005)"]), 0)
 
     def test_ratio_in_words(self) -> None:
@@ -432,7 +436,7 @@ class Report(WithPage):
             del history[name]
         write_run(self.path / "jacked", history, SUMMARY)
         jacked = methods.methods_of(Results(self.path / "jacked"))
-        self.assertIn("computed / undisturbed", self.rows(jacked, "Total")[0])
+        self.assertIn("undisturbed", self.rows(jacked, "Computed / method: total")[0])
         said = "\n".join(jacked["why"])
         self.assertRegex(said, r"At 4.5 m the run has [\d.]+ times the force of undist")
         self.assertIn("times the force of Senders & Randolph (2009) (cone ASS", said)

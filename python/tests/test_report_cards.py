@@ -12,8 +12,10 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import run_error_bar
-from caisson.verdict import limits
+from caisson.verdict import limits, suction_methods, theory
 from caisson.results import Results
+from caisson.plot import charts
+from caisson.shown import USUAL
 from caisson.report import content, layers, methods, sketch
 from caisson.verdict import installation
 
@@ -111,8 +113,13 @@ class Cards(WithPage):
         for wrong in ("(kN)", "(m)", " kN", "0.09 m"):
             found = re.findall(".{40}" + re.escape(wrong), words.replace("kN/m³", ""))
             self.assertEqual(found, [], wrong)
-        titles = [table["title"] for table in methods.methods_of(run)["tables"]]
-        self.assertIn("Required and critical suction (Pa)", titles)
+        tables = {table["title"]: table for table in methods.methods_of(run)["tables"]}
+        table = tables["Required and critical suction (Pa)"]
+        cells = dict(zip(table["heads"], table["rows"][-1]))
+        low = cells["required, Houlsby & Byrne (2005), low to high"].split()[0]
+        by_hand = suction_methods.answers_of(theory.site_of(run), np.array([0.09]))
+        needed = by_hand.suctions[suction_methods.LOW][0]
+        self.assertAlmostEqual(float(low) / needed, 1, 2)
         charts = content.figures_of(run, self.installation())
         self.assertEqual([c["axis"] for c in charts], ["suction (Pa)", "force (N)"])
         self.assertEqual({c["depth"] for c in charts}, {"mm"})
@@ -153,60 +160,56 @@ class Cards(WithPage):
     def test_limits_beyond_the_chart(self) -> None:
         """The axis ends at 1.03 times 1.5 times the 30 kPa of the run."""
         shown = [
-            content.line(
-                "run", "black", np.array([0, 30.0]), np.arange(2.0), thick=True
-            )
+            charts.line("run", "black", np.array([0, 30.0]), np.arange(2.0), thick=True)
         ]
         found = installation.Installation(
             np.arange(2.0), {}, required=np.array([0, 30.0])
         )
-        shown.append(content.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
-        self.assertAlmostEqual(content.axis_end(shown), 46.35)
+        shown.append(charts.line("far", "red", np.full(2, 90.0), np.arange(2.0)))
+        self.assertAlmostEqual(charts.axis_end(shown), 46.35)
         found.absent = ["pump: not given", "plug of clay: no clay"]
         for limit, words in ((46.0, ""), (47.0, "water boils at 47 kPa")):
             found.limits = {limits.BOILING: np.full(2, limit)}
-            said = content.beyond_the_chart(found, shown, 1.0)
+            said = charts.beyond_the_chart(found, shown, 1.0)
             self.assertIn(words, said)
             self.assertEqual("Beyond" in said, bool(words))
             for kind in found.absent:
                 self.assertIn(kind, said)
         found.lid = 1.4
-        self.assertIn("lid at about 1.4 m", content.beyond_the_chart(found, shown, 1.0))
+        self.assertIn("lid at about 1.4 m", charts.beyond_the_chart(found, shown, 1.0))
         allowable = np.full(2, 60.0), np.arange(2.0)
-        shown.append(content.line("allowable", "red", *allowable, full=True))
-        self.assertAlmostEqual(content.axis_end(shown), 61.8)
+        shown.append(charts.line("allowable", "red", *allowable, full=True))
+        self.assertAlmostEqual(charts.axis_end(shown), 61.8)
 
     def test_card_of_the_methods(self) -> None:
         """The first ratio that there is at the end."""
-        heads = ["depth (m)", "computed"]
-        heads += [f"computed / {name}" for name in "ABC"]
-        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "", "0.5 to 2", "3"]]
-        found: dict[str, Any] = {"tables": [{"heads": heads, "rows": rows}]}
+        heads, title = ["depth (m)", *"ABC"], "Computed / method: total force (kN)"
+        rows = [["4", "1", "2", "3"], ["4.5", "", "0.5 to 2", "3"]]
+        table = {"title": title, "heads": heads, "rows": rows}
+        found: dict[str, Any] = {"tables": [{}, table]}
         card = ["Computed / method", "0.5 to 2", "of B at 4.5 m"]
         self.assertEqual(methods.card_of(found), [card])
-        heads[2] = "computed / undisturbed"
-        rows = [["4", "9", "1", "2", "3"], ["4.5", "9", "5", "", ""]]
-        found = {"tables": [{"heads": heads, "rows": rows}]}
+        heads[1] = "undisturbed"
+        table["rows"] = [["4", "1", "2", "3"], ["4.5", "5", "", ""]]
         card = ["Computed / method", "2", "of B at 4 m"]
         self.assertEqual(methods.card_of(found), [card])
         self.assertEqual(methods.card_of({"tables": []}), [])
 
     def test_tables_of_a_page(self) -> None:
         """Cases are a range, and ratios a table of their own."""
-        heads = ["depth (m)", "computed", "A, low", "A, high", "A, undisturbed"]
-        table = {
-            "title": "Total force (kN)",
-            "heads": [*heads, "computed / A"],
-            "rows": [["1", "9", "2", "3", "1", "3 to 4"], ["2", "9", "4", "4", "", ""]],
-        }
-        forces, of_method = methods.for_a_page(table)
+        depth, nan = {"depth (m)": np.array([1.0, 2.0])}, np.nan
+        cases = {"low": np.array([2e3, 4e3]), "high": np.array([3e3, 4e3])}
+        a = theory.Beside("A", cases, {"undisturbed": np.array([1e3, nan])})
+        found = methods.beside("Force (kN)", depth, np.full(2, 9e3), [a], USUAL)
+        heads = [table["heads"][1:] for table in found]
+        self.assertEqual(heads[0], ["computed", "A, low to high", "A, undisturbed"])
+        self.assertEqual(heads[1], ["A", "undisturbed"])
+        self.assertEqual(found[0]["rows"][0], ["1", "9", "2 to 3", "1"])
+        self.assertEqual(found[0]["rows"][1], ["2", "9", "4", ""])
+        self.assertEqual(found[1]["title"], "Computed / method: force (kN)")
         self.assertEqual(
-            forces["heads"], [*heads[:2], "A, low to high", "A, undisturbed"]
+            found[1]["rows"], [["1", "3.00 to 4.50", "9.00"], ["2", "2.25", ""]]
         )
-        self.assertEqual(forces["rows"][0], ["1", "9", "2 to 3", "1"])
-        self.assertEqual(forces["rows"][1], ["2", "9", "4", ""])
-        self.assertEqual(of_method["title"], "Computed / method: total force (kN)")
-        self.assertEqual(of_method["rows"], [["1", "3 to 4"], ["2", ""]])
 
     def test_stress_on_the_walls(self) -> None:
         """Of the frame at a depth: 30 and 60 kPa of 10 and 20 kPa at rest, and not
@@ -297,10 +300,10 @@ class Cards(WithPage):
         }
         write_columns(self.path / "history_error.csv", bounds)
         run, numbers = Results(self.path), self.installation()
-        found = content.suction_curves(run, numbers, 1.5)  # where suction ends
+        found = charts.suction_curves(run, numbers, 1.5)  # where suction ends
         bars = [curve for curve in found if curve["label"] == "required, error bar"]
         self.assertEqual(max(bars[0]["y"]), 1.5)
-        found = content.suction_curves(run, numbers)
+        found = charts.suction_curves(run, numbers)
         (bar,) = [curve for curve in found if curve["label"] == "required, error bar"]
         for i, expected in ((20, (0, 2.2)), (50, (1, 4))):
             self.assertAlmostEqual(bar["x"][i], expected[0])

@@ -3,6 +3,7 @@
 import json
 import unittest
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_run
@@ -72,6 +73,20 @@ class Layers(WithPage):
         table = layers.layers_table(Results(self.path))
         self.assertEqual(table["heads"], ["layer", "1", "2"])
 
+    def test_assumed_strength(self) -> None:
+        """Only what decides it counts: sand with a given angle has the cohesion 0."""
+        sand = {"top_depth_m": 0, "law": "Mohr-Coulomb", "friction_angle_deg": 34}
+        run = self.run_of([sand, {**sand, "top_depth_m": 5.0, "cohesion_Pa": 2e3}])
+        for entry, marks in (
+            ("Cohesion", [False, True]),
+            ("Friction angle", [True] * 2),
+        ):
+            every = [f"Soil/Layer {i}/{entry}" for i in (1, 2)]
+            with mock.patch.dict(run.summary, {"assumed": every}):
+                table = layers.soil_table(run)
+            place = table["heads"].index("strength")
+            self.assertEqual([row[place][1] for row in table["rows"]], marks)
+
     def test_curve_over_depth(self) -> None:
         """Only the range is said, down to the skirt."""
         (row,) = self.rows(self.run_of(clay(100.0)))
@@ -92,8 +107,16 @@ class Layers(WithPage):
         run = self.run_of([*clay(), {**SAND, "top_depth_m": 2.0}])
         drawn = sketch.of_run(run, 4.5, None)
         self.assertEqual(drawn.count('<rect class="soil'), 2)
-        self.assertIn("D_r = 95 %", drawn)
-        self.assertIn("s_u = 2 + 1.5 d kPa", drawn)
+        self.assertIn("Dᵣ = 95 %", drawn)
+        self.assertIn("sᵤ = 2 + 1.5 d kPa", drawn)
+        self.assertNotIn("<line", drawn.partition("<text")[2])  # across no text
+
+    def test_narrow_sketch(self) -> None:
+        """Where the words on the rest are wider than the caisson there are fewer."""
+        run = self.run_of(clay())
+        self.assertIn("rests by weight at 2.00 m", sketch.of_run(run, 4.5, 2.0))
+        with mock.patch.dict(run.scene, {"diameter_m": 3.0, "skirt_length_m": 12.0}):
+            self.assertIn(">rests at 2.00 m<", sketch.of_run(run, 11.0, 2.0))
 
 
 class Pulled(WithPage):

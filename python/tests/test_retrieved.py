@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A retrieval by overpressure, by numbers worked out by hand."""
+import math
 import unittest
 from types import SimpleNamespace
 from typing import Any
@@ -8,6 +9,9 @@ from unittest import mock
 import numpy as np
 
 from caisson import curves
+from caisson.design import retrieval
+from caisson.design.clay import Layer
+from caisson.design.cone import Skirt
 from caisson.report import pull
 from caisson.shown import USUAL
 from caisson.verdict.retrieval import Retrieval
@@ -39,6 +43,19 @@ class Crane(unittest.TestCase):
         needs = np.array([0.0, 40e3, 190e3])
         found = Retrieval(np.array([0.0, 2.0, 14.0]), needs, limits, 15.0)
         self.assertIn("at most 80 % of what the ground", said(found))
+
+
+class Piping(unittest.TestCase):
+    """Sand outside that loses its weight."""
+
+    def test_permeability_ratio(self) -> None:
+        """A plug that conducts three times as much leaves the tip a = 3 a1/(1 + 2 a1)
+        of the overpressure, and p = gamma' h / a; as the grout has it."""
+        sand, skirt = [Layer(0.0, 9e3, 0.0, 0.0, 0.0)], Skirt(6.0, 0.1, 20.0, 20.0)
+        a1 = 0.45 - 0.36 * (1 - math.exp(-(2 / 6) / 0.48))
+        for ratio, a in ((1.0, a1), (3.0, 3 * a1 / (1 + 2 * a1))):
+            found = retrieval.outward(skirt, sand, 2.0, ratio)
+            self.assertAlmostEqual(found, 18e3 / a, delta=1e-6 * found)
 
 
 class Depths(unittest.TestCase):

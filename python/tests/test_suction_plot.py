@@ -4,6 +4,7 @@ import argparse
 import csv
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -14,9 +15,11 @@ from synthetic import write_columns, write_run
 from test_suction_design import CRITICAL_SUCTIONS
 
 from caisson import evaluation, plot
-from caisson.plot import suction
+from caisson.plot import charts, suction
 from caisson.verdict import design, limits, theory
 from caisson.verdict import suction_methods as methods
+from caisson.verdict.installation import Installation
+from caisson.verdict.outcome import whole_way
 from caisson.results import Results
 from caisson.design import dnv, seepage, senders_randolph, unified
 from caisson.design import suction_installation as installation
@@ -24,6 +27,7 @@ from caisson.design.assumed_cone import AssumedCone, Sand
 from caisson.design.cone import Profile, Skirt
 from caisson.design.houlsby_byrne import Caisson, Layer
 
+BAR = "required, error bar"
 GAMMA, WEIGHT, D = 8829.0, 1e6, 6.0
 SAND: dict[str, Any] = {
     "top_depth_m": 0,
@@ -55,6 +59,7 @@ ASSUMED = [
     for columns in methods.CONE_COLUMNS.values()
     for column in columns
 ]
+PARTS = ("tip_force", "inner_friction", "outer_friction")
 REST = 2.0  # m, of the made-up run
 # no suction draws it in: it has no weight, and its outer wall much friction
 LIGHT: dict[str, Any] = {
@@ -90,6 +95,7 @@ def synthetic() -> dict[str, np.ndarray]:
         "time_s": depth,
         "penetration_m": depth,
         "total_force_N": WEIGHT + 26 * required,
+        **{f"{part}_N": WEIGHT / 4 + 8 * required for part in PARTS},
         "suction_Pa": np.maximum(required, 0),
         "required_suction_Pa": required,
         "cavitation_suction_Pa": 3e5 + 9810 * depth,
@@ -139,8 +145,8 @@ class MadeUpRun(unittest.TestCase):
         run = self.write(synthetic())
         (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
         answers = methods.answers_of(SITE, np.array([1.0, 4.0]))
-        suction.draw_suction(axes, run, answers)
-        self.assertNotIn("error bar", axes.get_legend_handles_labels()[1])
+        suction.draw_suction(axes, run, whole_way(run), answers)
+        self.assertNotIn(BAR, axes.get_legend_handles_labels()[1])
         depth = run.history["penetration_m"]
         required = run.history["required_suction_Pa"]
         bounds = {
@@ -149,14 +155,14 @@ class MadeUpRun(unittest.TestCase):
             "required_suction_high_Pa": required + 2e3,
         }
         write_columns(self.path / "history_error.csv", bounds)
-        suction.draw_suction(axes, Results(self.path), answers)
-        (bars,) = [c for c in axes.containers if c.get_label() == "error bar"]
+        suction.draw_suction(axes, (new := Results(self.path)), whole_way(new), answers)
+        (bars,) = [c for c in axes.containers if c.get_label() == BAR]
         segments = bars[2][0].get_segments()
         self.assertGreater(len(segments), 8)
         for (low, at), (high, _) in segments:
             needed = float(np.interp(at, depth, required)) / 1e3
-            self.assertAlmostEqual(low, needed - 2)
-            self.assertAlmostEqual(high, needed + 2)
+            self.assertAlmostEqual(low, max(needed - 2, 0), 4)
+            self.assertAlmostEqual(high, max(needed + 2, 0), 4)
 
     def test_values_at_one_depth(self) -> None:
         design.write(self.path / "design.csv", self.write(synthetic()))
@@ -231,33 +237,35 @@ class MadeUpRun(unittest.TestCase):
             self.assertAlmostEqual(force / WEIGHT, 1)
 
     def test_water_boils_later_as_the_lid_comes_down(self) -> None:
-        run, at = self.write(synthetic()), np.linspace(1.0, 4.5, 20)
-        found = {limits.BOILING: limits.limits_of(run, at)[limits.BOILING]}
-        for farthest, lines in ((315.0, 1), (305.0, 0)):  # kPa; it boils from 310 on
-            axes = Figure().subplots()
-            axes.set_xlim(0, farthest)
-            said = suction.draw_limits(axes, run, at, found)
-            self.assertEqual(len(axes.lines), lines)
-            named = [] if lines else ["water boils at 310 to 344 kPa"]
-            self.assertEqual(said, named)
-            for line in axes.lines:
-                kilopascals, depth = line.get_data()
-                np.testing.assert_array_equal(depth, at)
-                rise = 9.81 * np.diff(depth)
-                np.testing.assert_allclose(np.diff(kilopascals), rise, rtol=0.2)
+        found = self.limited(limits.BOILING)
+        (curve,) = self.limit(found, "water boils")
+        rise = 9.81 * np.diff(curve["y"])
+        np.testing.assert_allclose(np.diff(curve["x"]), rise, rtol=0.2)
+        for farthest in (310.0, 300.0):  # kPa; it boils from 310 on
+            ends = np.array([0, farthest]), np.array([0, 1])
+            shown = [curve, charts.line("run", "black", *ends)]
+            said = charts.beyond_the_chart(found, shown, 4.5)
+            named = "Beyond the chart: water boils at 310 to 344 kPa."
+            self.assertEqual(named in said, farthest < 301)
+
+    def limited(self, name: str, **entries: str) -> Installation:
+        """Return the installation of the made-up run with one of its limits."""
+        summary = {"entries": entries, "scene": SCENE}
+        write_run(self.path, synthetic(), summary)
+        found = whole_way(Results(self.path))
+        assert found is not None
+        return replace(found, limits={name: found.limits[name]})
+
+    def limit(self, found: Installation, label: str) -> list[charts.Curve]:
+        """Return the curves of a limit."""
+        every = charts.limit_curves(found, 4.5)
+        return [curve for curve in every if curve["label"] == label]
 
     def test_pump_limit(self) -> None:
         """A line at the largest suction of the pump."""
-        summary = {"entries": {"Water/Largest suction": "150e3"}, "scene": SCENE}
-        write_run(self.path, synthetic(), summary)
-        axes = Figure().subplots()
-        axes.set_xlim(0, 200)
-        run, at = Results(self.path), np.array([1.0, 4.0])
-        pump = {limits.PUMP: limits.limits_of(run, at)[limits.PUMP]}
-        suction.draw_limits(axes, run, at, pump)
-        (line,) = axes.lines
-        self.assertEqual(set(line.get_xdata()), {150.0})
-        self.assertEqual(line.get_label(), "pump")
+        found = self.limited(limits.PUMP, **{"Water/Largest suction": "150e3"})
+        (curve,) = self.limit(found, "pump")
+        self.assertEqual(set(curve["x"]), {150.0})
 
     def test_heavy_caisson(self) -> None:
         site = theory.Site({**SCENE, "submerged_weight_N": 1e9})
@@ -363,7 +371,7 @@ class MadeUpRun(unittest.TestCase):
             run = self.write(synthetic(), **change)
             (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
             answers = methods.answers_of(site, np.linspace(4, 6, 5))
-            suction.draw_suction(axes, run, answers)
+            suction.draw_suction(axes, run, whole_way(run), answers)
             labels = axes.get_legend_handles_labels()[1]
             self.assertFalse([n for n in labels if n.startswith("required, H")], change)
             by_cone = [n for n in labels if n.startswith("required, S")]
@@ -375,7 +383,8 @@ class MadeUpRun(unittest.TestCase):
         """Return the lines and bands of the suctions down to 4.5 m, by label."""
         (axes,) = Figure().subplots(1, 1, squeeze=False)[0]
         answers = methods.answers_of(site, np.linspace(0, 4.5, 91))
-        suction.draw_suction(axes, self.write(synthetic(), **change), answers)
+        run = self.write(synthetic(), **change)
+        suction.draw_suction(axes, run, whole_way(run), answers)
         handles, labels = axes.get_legend_handles_labels()
         return dict(zip(labels, handles))
 
@@ -391,13 +400,13 @@ class MadeUpRun(unittest.TestCase):
         self.assertNotIn("senders_randolph_Pa", self.design()[0])
 
     def test_required_and_critical_look_different(self) -> None:
-        """Bands in the color of the method, and thin lines of one other color."""
+        """Bands in the color of the method, and thin lines of other colors."""
         drawn = self.drawn(SITE._replace(cone=Profile([0, 10], [0, 10e6])))
         critical = {
             line.get_color() for name, line in drawn.items() if "critical" in name
         }
-        self.assertEqual(critical, {suction.CRITICAL_COLOR})
-        self.assertNotIn(suction.CRITICAL_COLOR, (suction.BLUE, suction.GREEN))
+        self.assertEqual(len(critical), 3)
+        self.assertTrue(critical.isdisjoint({*charts.COLOR_OF.values(), charts.GREEN}))
         for name in ("Houlsby & Byrne (2005)", "Senders & Randolph (2009)"):
             self.assertTrue(hasattr(drawn[f"required, {name}"], "get_facecolor"))
         self.assertIn("critical, Senders & Randolph (2009)", drawn)

@@ -70,6 +70,10 @@ class Trace(WithPage):
         history = self.path / "history.csv"
         history.write_text(history.read_text(encoding="utf-8") + "\n")
         self.assertTrue("Author: <i></i>" in self.command())
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.command("--author", "A. Ng", "--rate", "-1")
+        self.assertIn("--rate -1: give m/h above 0", said.getvalue())
+        self.assertEqual(trace.signed_of(self.path), trace.Signed())
         (self.path / trace.NAME).write_text("{")
         with contextlib.redirect_stderr(io.StringIO()) as said:
             self.command()

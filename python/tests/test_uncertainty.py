@@ -11,7 +11,8 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 from caisson import report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
-from caisson.report import content, verdict
+from caisson.plot import charts
+from caisson.report import verdict
 from caisson.results import Results
 from caisson.verdict import uncertainty
 from caisson.verdict.uncertainty import GROUND, MESH, PROGRAM
@@ -126,7 +127,7 @@ class Uncertainties(WithPage):
         low, high = (f"{end:.3g}" for end in ends)
         self.assertIn(f"and {low} to {high} kPa with its uncertainty", page)
         self.assertEqual(suction["missing"], ["mesh"])
-        area, inner = content.range_curve(run, "required_suction_Pa", "required")
+        area, inner = charts.range_curve(run, "required_suction_Pa", "required")
         self.assertAlmostEqual(area["to"][-1], suction["high_Pa"] / 1e3, delta=0.05)
         self.assertLess(inner["to"][-1], area["to"][-1])
 

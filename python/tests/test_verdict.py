@@ -11,6 +11,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import evaluation
+from caisson.plot.charts import GRAY
 from caisson.report import content, verdict
 from caisson.verdict import installation, outcome, run_review
 from caisson.results import Results
@@ -96,7 +97,7 @@ class Verdicts(WithPage):
             for curve in figure["curves"]:
                 if curve.get("thick"):
                     self.assertLessEqual(max(curve["y"]), 3.5)
-            gray = [c for c in figure["curves"] if c["color"] == content.GRAY]
+            gray = [c for c in figure["curves"] if c["color"] == GRAY]
             self.assertTrue(gray and all(min(c["y"]) > 3.5 for c in gray))
 
     def test_no_warning_of_what_is_deeper(self) -> None:

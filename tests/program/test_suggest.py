@@ -308,6 +308,17 @@ class Words(SuggestTest):
         self.assertEqual(list(path.iterdir()), [])
         self.suggest(path / "own.prm", *words, layers=(SAND,))
 
+    def test_law_before_walls(self) -> None:
+        """What the program refuses of a law is said before a wall friction is asked
+        for."""
+        file = self.made_directory() / "own.prm"
+        said = self.suggest(file, status=1, layers=("0: Law = hypoplastic sand",))
+        self.assertIn("Set hypoplastic sand with intergranular strain", said)
+        self.assertNotIn("--wall-friction", said)
+        elastic = "0: Law = linear elastic, E = 20 MPa"
+        said = self.suggest(file, status=1, layers=(elastic,))
+        self.assertIn("has no friction angle from which", said)
+
     def test_scene_of_an_ags_file(self) -> None:
         """It has the chosen test as a table beside it."""
         path = self.made_directory()

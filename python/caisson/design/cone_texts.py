@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The estimates as a table on the terminal and as layers.csv."""
 from collections.abc import Sequence
+from functools import partial
 from math import floor, log10
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from caisson import template
 from caisson.table import markdown, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
@@ -18,14 +20,22 @@ from caisson.design.correlations import ANGLE, DENSITY, EVERY, MODULUS, STRENGTH
 from caisson.design.correlations import CLAY_RATIOS, IN_CHAMBERS, OWN_CLAY, OWN_CONE
 from caisson.design.correlations import PER_DECADE, WALL_VELOCITY
 from caisson.design.correlations import computed_cone_factor
-from caisson.design.ground import CLAY, CLAY_LIKE, CONE_FACTOR, DRAINED, SAND
-from caisson.design.ground import Ground, kind_of
+from caisson.design.ground import CLAY_LIKE, CONE_FACTOR, DRAINED, SAND, Ground, kind_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.own_cone import DEEP, is_known
 from caisson.design.density import reference_modulus
 
+SENTENCES = Path(__file__).with_suffix(".jinja")
 DIGITS = 2  # of a small value, at least
 DOES_NOT_ANSWER = 0.1  # of the resistance of its own cone
+
+
+say = partial(template.say, SENTENCES)
+
+
+def say_rows(name: str, *data: Any) -> list[str]:
+    """Return the remarks that a macro makes of data."""
+    return [text for _, text in template.say_rows(SENTENCES, name, *data)]
 
 
 class Shown(NamedTuple):
@@ -97,163 +107,65 @@ def text_of_test(test: Interpretation) -> str:
     )
 
 
-def signs(ground: Ground, number: int, layer: Layer) -> list[str]:
+def signs(ground: Ground, number: int, layer: Layer) -> str:
     """Return where I_c, friction ratio and pore pressure of a layer do not agree with
     each other, or with the kind that is given."""
-    index, friction, behavior, pressure, excess = (
-        ground.median(values, layer.rows)
-        for values in (
-            ground.index,
-            ground.friction_ratio,
-            ground.behavior,
-            ground.pressure_ratio,
-            ground.excess,
-        )
-    )
-    if not np.isfinite(index):
-        return []
-    own, by_index = ground.kind(layer.rows), kind_of(index)
-    why = []
-    if behavior < CLAY_LIKE:
-        why.append(
-            f"its F_r of {friction:.1f} % (I_B of {behavior:.0f}) is that of clay"
-        )
-    if pressure >= DRAINED:
-        why.append(
-            f"its u_2 is {excess / 1e3:.0f} kPa above water at rest (B_q of"
-            f" {pressure:.2f}), as in soil that does not drain"
-        )
-    of_index = f"its I_c of {index:.2f}"
-    if layer.is_given:
-        text = " and ".join(why) or f"{of_index} is that of {own}"
-        taken = f"layer {number} is taken as {layer.kind} by --soil; {text}"
-        return [taken] if own != layer.kind else []
-    if own != by_index:
-        return [
-            f"layer {number} is taken as {own}, though {of_index} is that of"
-            f" {by_index}: {' and '.join(why)}; --soil {number}={SAND} overrules this"
-        ]
-    measured = ground.pore_pressure is not None
-    if own == CLAY and measured and pressure < DRAINED / 2:
-        return [
-            f"layer {number} is clay by its friction, but its u_2 is not above water at"
-            " rest, as in soil that drains or in stiff clay: the two do not agree;"
-            f" --soil {number}=sand takes it as sand"
-        ]
-    return []
-
-
-def on_cone_factor(factor: float, is_own: bool) -> str:
-    """Return what a computed cone says of a cone factor; is_own: of OWN_CLAY."""
-    computed = computed_cone_factor()
-    found = f"N_kt: a cone computed in clay with this stiffness has {computed:.3g}"
-    if not is_own or factor == computed:
-        return f"{found} for the strength at its rate"
-    return (
-        f"{found} ({CONE_FACTOR:g} is usual for tests in the laboratory), and a wall at"
-        f" {1e3 * WALL_VELOCITY:g} mm/s, ASSUMED, meets {computed / factor:.2f} of the"
-        f" strength at that rate ({100 * PER_DECADE:.3g} % for ten times the rate)"
-    )
+    columns = {
+        "index": ground.index,
+        "friction": ground.friction_ratio,
+        "behavior": ground.behavior,
+        "pressure": ground.pressure_ratio,
+        "excess": ground.excess,
+    }
+    of = {name: ground.median(x, layer.rows) for name, x in columns.items()}
+    if not np.isfinite(of["index"]):
+        return ""
+    kinds = ground.kind(layer.rows), kind_of(of["index"])
+    limits = CLAY_LIKE, DRAINED, ground.pore_pressure is not None
+    return say("signs", number, layer, *kinds, of, *limits)
 
 
 def sources(test: Interpretation) -> list[str]:
     """Return what the numbers of the table rest on."""
     have = {name for e in test.layers for name in e.values}
     kinds = {e.layer.kind for e in test.layers}
-    found = [f"{WEIGHT}: {test.weight}"]
-    for c in EVERY:
-        is_there = c.quantity in have if c.quantity != MODULUS else SAND in kinds
-        if test.names[c.quantity] == c.name and is_there:
-            factor = test.ground.cone_factor
-            name = (
-                f"{c.name}, N_kt = {factor:.3g}" if c.quantity == STRENGTH else c.name
-            )
-            found.append(f"{c.quantity}: {name}, {c.source}; {c.holds}")
-            if c.quantity == STRENGTH:
-                found.append(on_cone_factor(factor, c.name == OWN_CLAY))
-    if kinds - {SAND}:
-        low, best, high = CLAY_RATIOS
-        fine = " and ".join(sorted(kinds - {SAND}))
-        found.append(
-            f"{MODULUS} of {fine}: {best:g} s_u, from {low:g} to {high:g}; Duncan &"
-            " Buchignani (1976)"
-        )
-    if any(x.growth for e in test.layers for x in e.values.values()):
-        found.append("d is the depth below the mudline in m")
-    return found
+    # the modulus of clay and silt is a ratio to s_u
+    have = have - {MODULUS} | ({MODULUS} if SAND in kinds else set())
+    used = [c for c in EVERY if c.quantity in have]
+    taken = [c for c in used if test.names[c.quantity] == c.name]
+    factors = test.ground.cone_factor, computed_cone_factor(), CONE_FACTOR
+    is_own = test.names[STRENGTH] == OWN_CLAY
+    rate, fine = (1e3 * WALL_VELOCITY, 100 * PER_DECADE), sorted(kinds - {SAND})
+    grows = any(x.growth for e in test.layers for x in e.values.values())
+    how = STRENGTH, *factors, is_own, rate, fine, CLAY_RATIOS, grows
+    return say_rows("sources", test.weight, taken, *how)
 
 
 def on_its_cone(test: Interpretation, number: int, e: Estimates) -> list[str]:
     """Return where the density of a layer of sand does not answer its cone test."""
     if e.layer.kind != SAND or test.names[DENSITY] != OWN_CONE:
         return []
-    if not is_answered(test.ground, e, test.names):
-        return [
-            f"layer {number} has no row below {DEEP:g} m, where a cone is deep: its"
-            f" relative density is that of {IN_CHAMBERS}"
-        ]
-    found, density = list[str](), e.values[DENSITY].best
-    ratio = e.values[REFERENCE].best / float(reference_modulus(density))
-    if abs(ratio - 1) > DOES_NOT_ANSWER:
-        found.append(
-            f"layer {number}: with a relative density of {100 * density:.0f} % alone a"
-            f" cone does not meet the measured resistance; its modulus is {ratio:.2f}"
-            " times that by density"
-        )
-    ratio = answer_of(test.ground, e)
-    if abs(ratio - 1) > DOES_NOT_ANSWER:
-        found.append(
-            f"layer {number}: no sand of this law answers its cone; a computed cone"
-            f" meets {ratio:.2f} times the measured resistance, and low and high"
-            " estimate may be the same"
-        )
-    mean = float(np.median(mean_stress_of(test.ground, e)))
-    if not is_known(density, mean):
-        found.append(
-            f"layer {number}: no cone was computed at a relative density of"
-            f" {100 * density:.0f} % and a mean stress of {mean / 1e3:.3g} kPa: the"
-            " table goes on in a straight line"
-        )
-    return found
+    deep, density, stiffer, meets, mean = DEEP, e.values[DENSITY].best, 1.0, 1.0, 0.0
+    if is_answered(test.ground, e, test.names):
+        deep, meets = 0.0, answer_of(test.ground, e)
+        stiffer = e.values[REFERENCE].best / float(reference_modulus(density))
+        mean = float(np.median(mean_stress_of(test.ground, e)))
+        mean = 0.0 if is_known(density, mean) else mean
+    ratios = density, stiffer, meets, DOES_NOT_ANSWER, mean
+    return say_rows("on_its_cone", number, deep, IN_CHAMBERS, *ratios)
 
 
 def remarks_on(test: Interpretation, number: int, e: Estimates) -> list[str]:
     """Return lenses, bands and doubts of a layer, and what can be done with other soil
     than sand."""
-    found, ground = list[str](), test.ground
-    if e.layer.is_seam:
-        found.append(
-            f"layer {number} is a thin seam, which the cone feels together with the"
-            " soil around it: its estimates are those of the lowest quarter of its"
-            " readings"
-        )
-    lenses = []
-    for a, b, kind in e.layer.lenses:
+    ground, layer, lenses = test.ground, e.layer, []
+    for a, b, kind in layer.lenses:
         inside = (ground.depth >= a) & (ground.depth <= b)
-        tip = ground.median(ground.resistance, inside) / 1e6
-        lenses.append(f"{kind} from {a:g} to {b:g} m with a q_c of {tip:.2g} MPa")
-    if lenses:
-        found.append(
-            f"layer {number} has {', '.join(lenses)}: no layer of its own, and left"
-            " out of its estimates and of a scene; --tops makes other layers"
-        )
-    bands = [f"{name} soil from {a:g} to {b:g} m" for a, b, name in e.layer.bands]
-    if bands:
-        found.append(
-            f"layer {number} has {', '.join(bands)}: more than a factor of {BAND:g}"
-            " from its usual resistance, and not in a scene; --tops makes other"
-            " layers"
-        )
-    found += signs(ground, number, e.layer)
-    found += on_its_cone(test, number, e)
-    if e.layer.kind != SAND:
-        found.append(f"layer {number} is {e.layer.kind}: {CAN[e.layer.kind]}")
-    if STRENGTH in e.values and e.values[STRENGTH].low <= 0:
-        found.append(
-            f"layer {number} has a low strength of 0: its resistance does not exceed"
-            " the total vertical stress; check the zero of the test"
-        )
-    return found
+        lenses.append((kind, a, b, ground.median(ground.resistance, inside) / 1e6))
+    doubts = signs(ground, number, layer), on_its_cone(test, number, e)
+    can = CAN[layer.kind] if layer.kind != SAND else ""
+    is_weak = STRENGTH in e.values and e.values[STRENGTH].low <= 0
+    return say_rows("layer", number, layer, lenses, BAND, *doubts, can, is_weak)
 
 
 def remarks(test: Interpretation) -> list[str]:

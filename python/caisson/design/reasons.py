@@ -5,15 +5,19 @@ Forces are N, suctions Pa, depths m. A method has a lower and an upper case. Wha
 has beyond a factor of LIKE of both cases needs a reason.
 """
 import math
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
 from typing import NamedTuple
 
+from caisson import template
 from caisson.design.method import Forces
 from caisson.shown import units_for
 from caisson.table import text_of
 
 LIKE = (0.8, 1.25)  # computed over method; within it nobody asks why
 RAISED = 1.5  # K tan(delta) over that of undisturbed ground, beyond which a wall grips
-K_TAN = "K tan \N{GREEK SMALL LETTER DELTA}"
+say = partial(template.say, Path(__file__).with_name("reasons.jinja"))
 
 
 def ratio_in_words(computed: float, low: float, high: float) -> str:
@@ -44,125 +48,14 @@ def is_beyond(computed: float, low: float, high: float) -> bool:
     return least > LIKE[1] or most < LIKE[0]
 
 
-def head(h: float, ends: tuple[float, float, float], what: str, name: str) -> str:
-    """Return the beginning of a sentence. ends: computed, and both cases."""
-    ratio = ratio_in_words(*ends)
-    if not ratio:
-        return f"At {depth_of(h)} the run needs a suction, and {name} needs none:"
-    return f"At {depth_of(h)} the run has {ratio} times the {what} of {name}:"
-
-
-# ------------------------------------------------------- Houlsby & Byrne
-
-
-class Compared(NamedTuple):
-    """A run beside Houlsby & Byrne at one depth; the method's forces are those under
-    the suction of the run."""
-
-    h: float  # m
-    suction: float  # of the run (Pa), 0 where it is jacked
-    ratio: str  # computed over method: of the suction, or of the force of jacking
-    computed: Forces
-    low: Forces
-    high: Forces
-    enhanced: bool  # whether the method has stress enhancement
-    k_tan_delta: float  # of the outer wall in the run
-    undisturbed: float  # the same of undisturbed ground
-
-
 def depth_of(h: float) -> str:
     """Return a depth (m) in words."""
     return units_for(math.inf, math.inf, h).length(float(f"{h:.6g}"))
 
 
-def beside(computed: float, low: float, high: float, mark: str = "") -> str:
-    """Return a force of the run, and that of the method in brackets."""
-    largest = max(filter(math.isfinite, (computed, low, high)))
-    shown = units_for(largest, math.inf, math.inf)
-    factor = shown.factor("kN") / 1e3
-    ends = [text_of(factor * end) for end in (low, high)]
-    value = f"{text_of(factor * computed)} {shown.name('kN')}"
-    return f"{value} ({mark}{' to '.join(dict.fromkeys(ends))})"
-
-
-def cause_of_tip(found: Compared) -> str:
-    """Return why the tip force is not that of the method; nothing within its range."""
-    if found.low.tip <= found.computed.tip <= found.high.tip:
-        return ""
-    if found.computed.tip < found.low.tip:
-        cause = "the stress enhancement of the method grows exponentially with depth"
-        return f", because {cause}," if found.enhanced else ""
-    if found.suction > 0:
-        return (
-            ", because the method counts only the stress of the plug, which the flow"
-            " takes away, and no strength of the sand beside the wall,"
-        )
-    return (
-        ", because a footing at the surface leaves out the strength of the sand beside"
-        " the wall,"
-    )
-
-
-def state_of_walls(found: Compared) -> str:
-    """Return what the friction on the outer wall says of the stress on it."""
-    k, k0 = found.k_tan_delta, found.undisturbed
-    if not (math.isfinite(k) and k0 > 0):
-        return ""
-    if k > RAISED * k0:
-        return (
-            f"; the sand that the wall has pushed aside has raised {K_TAN} outside from"
-            f" {k0:.2f} in undisturbed ground to {k:.2f}"
-        )
-    return (
-        f"; the walls do not grip yet, and {K_TAN} outside is {k:.2f}, where"
-        f" undisturbed ground has {k0:.2f}"
-    )
-
-
-def of_houlsby_byrne(found: Compared) -> str:
-    """Return where a run is beside the method, and why."""
-    by_part = zip(found.computed, found.low, found.high)
-    tip, inner, outer = (
-        beside(*forces, mark) for forces, mark in zip(by_part, ("method: ", "", ""))
-    )
-    what = "force"
-    if found.suction > 0:
-        what = "suction"
-        tip += f" under its suction of {text_of(found.suction / 1e3)} kPa"
-    return (
-        f"At {depth_of(found.h)} the run has {found.ratio} times the {what}"
-        f" of Houlsby & Byrne (2005): its tip bears {tip}{cause_of_tip(found)} and its"
-        f" walls {inner} inside and {outer} outside{state_of_walls(found)}."
-    )
-
-
-def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
-    """Return why a run is not at the bound of Houlsby & Byrne; what: force or suction.
-    Nothing where it is."""
-    if not is_beyond(computed, bound, bound):
-        return ""
-    name = f"undisturbed ground (K0 {K_TAN[2:]})"
-    return (
-        f"{head(h, (computed, bound, bound), what, name)} no installation has"
-        " confirmed this lower bound. It leaves out that the wall pushes sand"
-        " aside, which raises the stress on it up to the passive limit, and that the"
-        " friction of the walls adds to the stress at the tip."
-    )
-
-
-# ------------------------------------------------------------- from a cone
-
-
-ASSUMED_CONE = (
-    "The methods from a cone were fitted to measured resistances of dense sand; here"
-    " the resistance is ASSUMED, and a cone test may change these ratios"
-    " considerably."
-)
-
-
-class ByCone(NamedTuple):
-    """A run beside a method from a cone at one depth; with suction the method's forces
-    are those under the suction of the run."""
+class Compared(NamedTuple):
+    """A run beside a method at one depth; with suction the method's forces are those
+    under the suction of the run."""
 
     name: str
     h: float  # m
@@ -171,7 +64,56 @@ class ByCone(NamedTuple):
     computed: Forces
     low: Forces
     high: Forces
-    relief: float | None  # 1 - s / s_cr of the run, None where it is jacked
+    relief: float | None = None  # 1 - s / s_cr of the run, None where it is jacked
+
+    @property
+    def parts(self) -> Iterator[str]:
+        """Each force of the run, with those of the method in brackets."""
+        for i, forces in enumerate(zip(self.computed, self.low, self.high)):
+            shown = units_for(max(filter(math.isfinite, forces)), math.inf, math.inf)
+            texts = [text_of(shown.factor("kN") / 1e3 * force) for force in forces]
+            ends = " to ".join(dict.fromkeys(texts[1:]))
+            mark = "method: " if i == 0 else ""
+            yield f"{texts[0]} {shown.name('kN')} ({mark}{ends})"
+
+    @property
+    def head(self) -> str:
+        """The beginning of a sentence."""
+        what = ratio_in_words(*self.ends), self.what, self.name
+        return say("head", depth_of(self.h), *what)
+
+    @property
+    def cause(self) -> str:
+        """Which part makes most of the difference: "tip", what "relief" leaves of it,
+        "walls" or, where they bear less than by the method, "loose" ones."""
+        above = self.ends[0] > max(self.ends[1:])
+        side = self.high if above else self.low
+        tip, *walls = (abs(a - b) for a, b in zip(self.computed, side))
+        if tip >= sum(walls):
+            return "tip" if self.relief is None else "relief"
+        return "walls" if above else "loose"
+
+
+def of_houlsby_byrne(
+    found: Compared, suction: float, enhanced: bool, walls: tuple[float, float]
+) -> str:
+    """Return where a run is beside the method, and why. suction: of the run (Pa), 0
+    where it is jacked; enhanced: whether the method has stress enhancement; walls: K
+    tan(delta) outside in the run and in undisturbed ground."""
+    where = depth_of(found.h), ratio_in_words(*found.ends), found, *found.parts
+    return say("byrne", *where, suction, enhanced, *walls, RAISED)
+
+
+def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
+    """Return why a run is not at the bound of Houlsby & Byrne; what: force or suction.
+    Nothing where it is."""
+    name, ends = "undisturbed ground (K0 tan \N{GREEK SMALL LETTER DELTA})", (
+        bound,
+        bound,
+    )
+    none = Forces(0.0, 0.0, 0.0)
+    found = Compared(name, h, what, (computed, *ends), none, none, none)
+    return say("undisturbed", found.head) if is_beyond(*found.ends) else ""
 
 
 class Walls(NamedTuple):
@@ -184,69 +126,22 @@ class Walls(NamedTuple):
     passive: tuple[float, float]  # Rankine, of a smooth wall
 
 
-AT_TIP = "most of the difference is at the tip"
-AT_WALLS = "most of the difference is at the walls"
-
-
-def cause_by_cone(found: ByCone) -> str:
-    """Return which part makes most of the difference."""
-    above = found.ends[0] > max(found.ends[1:])
-    side = found.high if above else found.low
-    tip = abs(found.computed.tip - side.tip)
-    inner = abs(found.computed.inner_friction - side.inner_friction)
-    walls = inner + abs(found.computed.outer_friction - side.outer_friction)
-    if tip >= walls and found.relief is not None:
-        return (
-            "the method leaves the tip 1 - s/s_cr ="
-            f" {max(found.relief, 0):.2f} of its force, and the run does not follow it"
-        )
-    if tip >= walls:
-        return AT_TIP
-    return AT_WALLS if above else f"{AT_WALLS}, which do not grip yet in the run"
-
-
 def of_cause(cause: str, h: float, walls: Walls | None) -> str:
     """Return why a part is not like in methods from a cone, once for all of them;
     nothing where its cause says all."""
-    if cause == AT_TIP:
-        return "The methods give the tip a fixed share of the cone resistance."
-    if cause != AT_WALLS:
-        return ""
-    little = "the methods give the walls a small share of the cone resistance"
-    if walls is None:
-        return (
-            "The walls have pushed sand aside, which raises the stress on them;"
-            f" {little}."
-        )
-    at_rest, passive = (
-        " to ".join(
-            dict.fromkeys(f"{end:.2f}" if end < 1 else f"{end:.1f}" for end in ends)
-        )
-        for ends in (walls.at_rest, walls.passive)
-    )
-    return (
-        f"At {depth_of(h)} the mean K on the walls is {walls.outer:.1f} outside and"
-        f" {walls.inner:.1f} inside; at rest it is {at_rest}, and at the passive limit"
-        f" {passive}; {little}."
-    )
+    ends = [
+        " to ".join(dict.fromkeys(f"{k:.2f}" if k < 1 else f"{k:.1f}" for k in some))
+        for some in (walls[2:] if walls else ((), ()))
+    ]
+    return say("of_cause", cause, depth_of(h), walls, *ends)
 
 
-def of_cone(found: ByCone) -> str:
+def of_cone(found: Compared) -> str:
     """Return why a run is not like a method from a cone; nothing where it is."""
     if not is_beyond(*found.ends):
         return ""
-    by_part = zip(found.computed, found.low, found.high)
-    tip, inner, outer = (
-        beside(*forces, mark) for forces, mark in zip(by_part, ("method: ", "", ""))
-    )
-    return (
-        f"{head(found.h, found.ends, found.what, found.name)} its tip bears {tip}, its"
-        f" walls {inner} inside and {outer} outside;"
-        f" {cause_by_cone(found)}."
-    )
-
-
-# ---------------------------------------------------------- under suction
+    left = f"{max(found.relief or 0, 0):.2f}"
+    return say("by_cone", found.head, *found.parts, found.cause, left)
 
 
 def relieved(jacking: Forces, relief: float) -> Forces:

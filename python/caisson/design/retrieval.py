@@ -49,14 +49,17 @@ def fracture(layers: Sequence[Layer], ratios: Sequence[float], h: float) -> floa
     return least + strength_at(layers, h)
 
 
-def outward(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:
+def outward(
+    skirt: Skirt, layers: Sequence[Layer], h: float, permeability_ratio: float = 1.0
+) -> float:
     """Return the overpressure (Pa) under which sand outside loses its weight; nan where
-    there is clay along the wall."""
+    there is clay along the wall. permeability_ratio: of the plug to the sand outside.
+    """
     if has_clay(layers, h):
         return nan
-    diameter = skirt.outer_diameter
-    inside = houlsby_byrne(vertical_stress(layers, h) / h, h, diameter)
-    return grout_pressure(inside, pressure_factor(h / diameter))
+    weight, diameter = vertical_stress(layers, h) / h, skirt.outer_diameter
+    inside = houlsby_byrne(weight, h, diameter, permeability_ratio)
+    return grout_pressure(inside, pressure_factor(h / diameter, permeability_ratio))
 
 
 def hoop(wall: Wall) -> float:
@@ -70,15 +73,17 @@ def allowable(
     ratios: Sequence[float],
     wall: Wall,
     depth: np.ndarray,
+    permeability_ratio: float = 1.0,
 ) -> dict[str, np.ndarray]:
     """Return the overpressures (Pa) at which something gives way, [n] at embedments
     depth [n] (m), nan where a mechanism is none; only those that there are. layers:
-    from the mudline down; ratios: their K0."""
+    from the mudline down; ratios: their K0; permeability_ratio: of the plug to the sand
+    outside."""
     rows = [
         {
             PLUG: reverse_bearing(skirt, layers, h),
             FRACTURE: fracture(layers, ratios, h),
-            OUTWARD: outward(skirt, layers, h),
+            OUTWARD: outward(skirt, layers, h, permeability_ratio),
             HOOP: hoop(wall),
         }
         for h in map(float, depth)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Axes over depth, notes below pictures, and the units of small bodies: N, Pa, mm."""
-from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -9,8 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from caisson.shown import Units
-
-CAPTIONS = Path(__file__).with_name("captions.jinja")
 
 
 def fade(axes: Axes, end: float | None) -> None:

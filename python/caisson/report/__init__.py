@@ -23,15 +23,20 @@ def write(directory: Path, rate: float | None = None) -> Path:
     from caisson.report import page, verdict
     from caisson.verdict.installation import Rate
 
-    if rate is not None and not (isinstance(rate, (int, float)) and 0 < rate < inf):
-        given = f"{rate:g}" if isinstance(rate, (int, float)) else repr(rate)
-        raise ResultsError(f"--rate {given}: give m/h above 0")
+    check_rate(rate)
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     adopt_what_is_beside(directory)
     verdict.keep(Results(directory))
     text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
     return disk.write(directory / NAME, text)
+
+
+def check_rate(rate: float | None) -> None:
+    """Refuse what is no rate of penetration (m/h). Raises ResultsError."""
+    if rate is not None and not (isinstance(rate, (int, float)) and 0 < rate < inf):
+        given = f"{rate:g}" if isinstance(rate, (int, float)) else repr(rate)
+        raise ResultsError(f"--rate {given}: give m/h above 0")
 
 
 def find_browser() -> str:
@@ -99,6 +104,7 @@ def main(options: argparse.Namespace) -> int:
     from caisson.report import relief, trace
 
     def write_one(directory: Path) -> None:
+        check_rate(options.rate)
         if keep_methods(options, directory):
             draw(directory)
         if options.jacked is not None:

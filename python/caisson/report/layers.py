@@ -194,19 +194,20 @@ def use_of(run: Results) -> str:
     return f"{drainage_of_run(run) or level}, {how}"
 
 
-def strength_of(run: Results, layer: Layer) -> str:
-    """Return what decides the strength of a layer, in words."""
-    found = []
-    if layer.is_clay and (words := number_in_words(run, layer, *STRENGTH)):
-        return f"s_u = {words}"
+def strength_of(run: Results, layer: Layer) -> dict[str, str]:
+    """Return what decides the strength of a layer, in words, by its entries."""
+    name, found = STRENGTH[0], dict[str, str]()
+    cohesion = number_in_words(run, layer, *STRENGTH)
+    if layer.is_clay and cohesion:
+        return {name: f"s_u = {cohesion}"}
     density = layer.parts[0].get("relative_density")
     if density is not None:
-        found.append(f"D_r = {100 * float(density):.3g} %")
+        found["Relative density"] = f"D_r = {100 * float(density):.3g} %"
     elif angle := layer.parts[0].get("friction_angle_deg"):
-        found.append(f"φ = {float(angle):.3g}°")
+        found["Friction angle"] = f"φ = {float(angle):.3g}°"
     if layer.parts[0].get("cohesion_Pa"):
-        found.append(f"c = {number_in_words(run, layer, *STRENGTH)}")
-    return ", ".join(found)
+        found[name] = f"c = {cohesion}"
+    return found
 
 
 def is_given(run: Results, layer: Layer, *entries: str) -> bool:
@@ -226,13 +227,13 @@ def soil_table(run: Results) -> dict[str, Any]:
     """Return the table with a row for each layer: heads, and rows of (text, whether
     assumed)."""
     shown, rows, columns = run.shown, [], NAMES["columns"]
-    of_strength = ("Cohesion", "Friction angle", "Relative density")
     for layer in layers_of(run.scene):
+        strength = strength_of(run, layer)
         cells = [
             (str(layer.number), False),
             (f"{shown.factor('m') * layer.top:.6g}", False),
             (kind_of(run, layer), False),
-            (strength_of(run, layer), not is_given(run, layer, *of_strength)),
+            (", ".join(strength.values()), not is_given(run, layer, *strength)),
         ]
         rows.append(cells + [cell_of(run, layer, *key) for key in columns.values()])
     heads = ["layer", shown.named("from (m)"), "soil", "strength", *columns]

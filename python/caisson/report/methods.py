@@ -11,7 +11,7 @@ import numpy as np
 from caisson import curves
 from caisson.evaluation import depths_of
 from caisson.verdict import by_hand, design, suction_methods, theory
-from caisson.plot.suction import CRITICAL
+from caisson.plot.charts import CRITICAL
 from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
@@ -24,7 +24,7 @@ from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.installation import needs_suction, plug_area
 
 SENTENCES = Path(__file__).with_name("methods.jinja")
-RATIO = "computed / "  # before the name of a method
+OVER = "Computed / method"
 # the lower case of a method: the upper one
 LOWER = {"low": "high", "most probable": "highest"}
 UNDISTURBED_IS = (
@@ -44,44 +44,6 @@ NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
 
 
-def in_ranges(heads: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
-    """Return columns in which the lower and the upper case of a method are one."""
-    columns = {head: [row[i] for row in rows] for i, head in enumerate(heads)}
-    found: dict[str, list[str]] = {}
-    skip = ""
-    for head, after in zip(heads, [*heads[1:], ""]):
-        name, _, case = head.rpartition(", ")
-        if head == skip:
-            continue
-        if case in LOWER and after == f"{name}, {LOWER[case]}":
-            skip = after
-            pairs = zip(columns[head], columns[after])
-            found[f"{name}, {case} to {LOWER[case]}"] = [
-                " to ".join(dict.fromkeys(filter(None, pair))) for pair in pairs
-            ]
-        else:
-            found[head] = columns[head]
-    return found
-
-
-def for_a_page(table: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the numbers of a table, the cases of a method as ranges, and below them
-    the ratios: as many columns beside each other as a page can show."""
-    columns = in_ranges(table["heads"], table["rows"])
-    is_ratio = [head.startswith(RATIO) for head in columns]
-    depth = table["heads"][0]
-    found = []
-    for title, wanted in ((table["title"], False), ("Computed / method", True)):
-        part = {h: c for (h, c), r in zip(columns.items(), is_ratio) if r is wanted}
-        if wanted:
-            part = {h.removeprefix(RATIO): c for h, c in part.items()}
-            title = f"{title}: {table['title'][0].lower()}{table['title'][1:]}"
-        part = {depth: columns[depth], **part}
-        if len(part) > 1:
-            found.append({"title": title, **by_rows(part)})
-    return found
-
-
 def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
     """Return ratio_in_words() of each row."""
     return [
@@ -91,19 +53,38 @@ def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]
 
 def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
     """Return title, heads and rows of columns of numbers or words [n], in the units
-    shown. The title has the unit of columns that name none; ratios have none."""
+    shown. The title has the unit of columns that name none."""
 
     def factor(head: str) -> float:
-        if RATIO in head or any(f"({unit})" in head for unit in SMALLER):
-            return shown.factor_of(head)
-        return shown.factor_of(title)
+        has_unit = any(f"({unit})" in head for unit in SMALLER)
+        return shown.factor_of(head if has_unit else title)
 
-    def text(head: str, cell: Any) -> str:
-        is_text = isinstance(cell, str)
-        return cell if is_text else text_of(factor(head) * float(cell))
-
-    texts = {shown.named(h): [text(h, x) for x in c] for h, c in columns.items()}
+    texts = {shown.named(h): shown_texts(x, factor(h)) for h, x in columns.items()}
     return {"title": shown.named(title), **by_rows(texts)}
+
+
+def shown_texts(values: Iterable[Any], factor: float) -> list[str]:
+    """Return words as they are, and numbers times a factor."""
+    return [x if isinstance(x, str) else text_of(factor * float(x)) for x in values]
+
+
+def columns_of(method: theory.Beside, what: str, factor: float) -> dict[str, list[str]]:
+    """Return the cases of a method (N or Pa) as text, its lower and its upper one as a
+    range. what: before the name; factor: of what is shown in kN or kPa."""
+
+    def plain(values: np.ndarray) -> list[str]:
+        return shown_texts(values, 1.0)
+
+    texts = {
+        case: (or_piping if method.may_end else plain)(factor * x / 1e3)
+        for case, x in (method.cases | method.bounds).items()
+    }
+    low, high = method.cases
+    if LOWER.get(low) == high:
+        pairs = zip(texts.pop(low), texts.pop(high))
+        both = [" to ".join(dict.fromkeys(filter(None, pair))) for pair in pairs]
+        texts = {f"{low} to {high}": both} | texts
+    return {f"{what}{method.name}, {case}": column for case, column in texts.items()}
 
 
 def beside(
@@ -114,20 +95,24 @@ def beside(
     shown: Units,
     what: str = "",
     last: dict[str, Any] = {},
-) -> dict[str, Any]:
+) -> list[dict[str, Any]]:
     """Return a table of what a run has (N or Pa), if it has this, and methods say
-    behind other columns, and last ones. what: before the names of methods."""
+    behind other columns, the first of which is the depth, and last ones; and one of
+    their ratios. what: before the names of methods."""
+    depth, over = dict(list(columns.items())[:1]), dict[str, list[str]]()
     if computed is not None:
         columns["computed"] = computed / 1e3
     for method in methods:
-        for case, values in (method.cases | method.bounds).items():
-            texts = or_piping(values / 1e3) if method.may_end else values / 1e3
-            columns[f"{what}{method.name}, {case}"] = texts
+        columns |= columns_of(method, what, shown.factor_of(title))
+        ends = {method.name: tuple(method.cases.values())}
+        ends |= {bound: (x, x) for bound, x in method.bounds.items()}
         if computed is not None:
-            columns[f"{RATIO}{method.name}"] = ratios(computed, *method.cases.values())
-            for bound, values in method.bounds.items():
-                columns[f"{RATIO}{bound}"] = ratios(computed, values, values)
-    return table(title, columns | last, shown)
+            over |= {name: ratios(computed, *pair) for name, pair in ends.items()}
+    found = [table(title, columns | last, shown)]
+    if over:
+        words = f"{OVER}: {title[0].lower()}{title[1:]}"
+        found.append(table(words, depth | over, shown))
+    return found
 
 
 def under_suction(
@@ -194,7 +179,7 @@ def suction_tables(
         title, columns, mine, found.required, run.shown, "required, ", critical
     )
     if not (methods := [] if run.by_hand else under_suction(run, at, site, answers)):
-        return [suctions]
+        return suctions
     resistance = beside(
         "Resistance under the suction of the run (kN)",
         {"depth (m)": at, "suction (kPa)": required / 1e3},
@@ -202,7 +187,7 @@ def suction_tables(
         methods,
         run.shown,
     )
-    return [suctions, resistance]
+    return suctions + resistance
 
 
 # ------------------------------------------------------------------ why
@@ -216,44 +201,39 @@ def computed_at(run: Results, h: float) -> Forces | None:
     return Forces(*(float(known[name][0]) for name in design.FORCES[:3]))
 
 
-def compared(run: Results, h: float) -> reasons.Compared | None:
-    """Return the run beside Houlsby & Byrne at a depth, None where the method has no
-    answer there or the run lacks a force."""
+def of_byrne(run: Results, h: float) -> str:
+    """Return a sentence on where the run is beside Houlsby & Byrne at a depth, and why;
+    nothing where the method has no answer there or the run lacks a force."""
     site, at = theory.site_of(run), np.array([h])
     try:
         byrne = theory.houlsby_byrne_of(site, h)
     except theory.NotApplicable:
-        return None
+        return ""
     if (computed := computed_at(run, h)) is None:
-        return None
-    suction, flow, mine = 0.0, STILL, computed.total
+        return ""
+    suction, flow, mine, what = 0.0, STILL, computed.total, "force"
     ends = [byrne.forces(h, case).total for case in byrne.cases]
     caisson, _ = byrne.by_name[UNDISTURBED]
     if needs_suction(run):
         suction = mine = float(design.suction_at(run.history, at)[0])
         found = suction_methods.answers_of(site, at).suctions
         ends = [float(found[name][0]) for name in suction_methods.RANGE if found]
-        flow = installation.seepage(
-            caisson, max(suction, 0.0), h, byrne.permeability_ratio
-        )
-    ratio = reasons.ratio_in_words(mine, *ends) if ends else ""
-    if not ratio:
-        return None
+        s, ratio = max(suction, 0.0), byrne.permeability_ratio
+        flow, what = installation.seepage(caisson, s, h, ratio), "suction"
+    if not ends or not reasons.ratio_in_words(mine, *ends):
+        return ""
     low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+    name, both = suction_methods.HOULSBY_BYRNE, (mine, ends[0], ends[1])
+    beside = reasons.Compared(name, h, what, both, computed, low, high)
     frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
-    walls = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
+    k, k0 = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
-    return reasons.Compared(h, suction, ratio, computed, low, high, enhanced, *walls)
+    return reasons.of_houlsby_byrne(beside, suction, enhanced, (k, k0))
 
 
 def why_of(run: Results, at: np.ndarray) -> str:
-    """Return a sentence on where the run is beside Houlsby & Byrne, and why, at the
-    deepest of depths [n] (m) with an answer; nothing without one."""
-    answers = (compared(run, float(h)) for h in at[::-1])
-    found = next((answer for answer in answers if answer), None)
-    if found is None:
-        return ""
-    return reasons.of_houlsby_byrne(found)
+    """Return that sentence at the deepest of depths [n] (m) with an answer."""
+    return next(filter(None, (of_byrne(run, float(h)) for h in at[::-1])), "")
 
 
 def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]:
@@ -287,15 +267,13 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
         elif answer.method.bound or left is not None or answer.method.key == "clay":
             continue
         name = answer.name
-        by_cone = reasons.ByCone(name, h, what, ends, computed, low, high, left)
+        by_cone = reasons.Compared(name, h, what, ends, computed, low, high, left)
         if sentence := reasons.of_cone(by_cone):
             sentences.append(sentence)
-            causes[
-                reasons.of_cause(reasons.cause_by_cone(by_cone), h, walls_of(run, h))
-            ] = None
+            causes[reasons.of_cause(by_cone.cause, h, walls_of(run, h))] = None
     sentences += causes
     if any(sentences) and any(answer.assumed for answer in answers):
-        sentences.append(reasons.ASSUMED_CONE)
+        sentences.append(reasons.say("assumed_cone"))
     return [sentence for sentence in [*found, *sentences] if sentence]
 
 
@@ -388,16 +366,17 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
 
 
 def card_of(found: dict[str, Any]) -> list[list[str]]:
-    """Return a card with computed over method, of the first table of the methods, at
+    """Return a card with computed over method, of the first two tables of them, at
     the deepest depth with an answer of a method that is fitted to field data, without
     an assumed cone if possible, else of the lower bound; nothing where none has an
     answer."""
     answers = [
-        (f"{row[0]} {table['heads'][0][7:-1]}", head.removeprefix(RATIO), cell)
-        for table in found["tables"][:1]
+        (f"{row[0]} {table['heads'][0][7:-1]}", name, cell)
+        for table in found["tables"][1:2]
+        if table["title"].startswith(OVER)
         for row in reversed(table["rows"])
-        for head, cell in zip(table["heads"], row)
-        if head.startswith(RATIO) and cell
+        for name, cell in zip(table["heads"][1:], row[1:])
+        if cell
     ]
     fitted = [answer for answer in answers if answer[1] != UNDISTURBED]
     measured = [answer for answer in fitted if theory.ASSUMED_CONE not in answer[1]]
@@ -425,7 +404,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     if computed is None:
         title = "Force of jacking, without suction (kN)"
     forces = [answer.total for answer in answers if answer.forces]
-    tables = [beside(title, {"depth (m)": at}, computed, forces, run.shown)]
+    tables = beside(title, {"depth (m)": at}, computed, forces, run.shown)
     leaves = ""
     if with_suction:
         columns, rest = ({}, None) if run.by_hand else relief.table_of(run, at)
@@ -445,7 +424,7 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
     return {
-        "tables": [table for table in tables if len(table["heads"]) > 2],
+        "tables": [x for x in tables if {*x["heads"][1:]} - {"computed"}],
         "why": [sentence for sentence in why if sentence],
         "reasons": theory.reasons(answers),
         "notes": [note for note in notes if note],

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from caisson.disk import is_locked
 from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
 from caisson.band import BEST
 from caisson.verdict import by_hand, installation, limits, outcome, retrieval
 from caisson.verdict import run_review, theory
+from caisson.disk import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, ResultsError
@@ -202,11 +202,10 @@ def html(run: Results, rate: Rate) -> str:
             known |= of_installation(run, found, end, rate)
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
-        tables = [part for x in beside["tables"] for part in methods.for_a_page(x)]
         known |= {
             "verdict": low_and_high.verdict_with(run),
             "cards": low_and_high.cards_of(run, own) + methods.card_of(beside),
-            "methods": beside | {"tables": tables},
+            "methods": beside,
         }
     if run.scene or not run.is_running:
         known |= of_scene(run, end)
@@ -240,7 +239,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
     return {
         "title": run.summary.get("title"),
         "next": run.summary.get("next"),
-        "job": say_rows(SENTENCES, "job", run, layers.use_of(run)),
+        "job": say_rows(SENTENCES, "job", run, scene.file_of(run), layers.use_of(run)),
         "warnings": run_review.warnings_of(run, end),
         "entries": scene.entries_of(run),
         "defaults": scene.defaults_of(run),

@@ -9,7 +9,7 @@ import numpy as np
 
 from caisson import curves
 from caisson.evaluation import DEPTH, capacity_in_words, is_pull, is_sealed
-from caisson.plot.forces import COLORS, WATER_COLOR, column_of
+from caisson.plot.charts import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson.shown import Units
 from caisson.table import in_units

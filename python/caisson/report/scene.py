@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
+from caisson.paths import without_user
 from caisson.results import Results
 from caisson.table import text_of
 from caisson.evaluation import is_sealed
@@ -59,6 +60,13 @@ def in_units(value: str | float, unit: str) -> str:
         is_list = re.fullmatch(r"[-+\d.eE, ]+", str(value)) and unit
         return f"{value} {readable(unit)}" if is_list else str(value)
     return with_unit(number, unit) if unit else str(value)
+
+
+def file_of(run: Results) -> str:
+    """Return the file of the scene as it was named; of a whole path, as phases and
+    bands have it, no folder of a user, as pages are passed on."""
+    path = Path(str(run.summary.get("scene_file") or ""))
+    return without_user(path) if path.is_absolute() else str(path)
 
 
 def entries_of(run: Results) -> dict[str, str]:

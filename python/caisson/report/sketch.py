@@ -37,6 +37,7 @@ class Drawing:
         self.scale = min(room / (2 * half_width), TALL / (bottom - top))
         self.top, self.half_width, self.bottom = top, half_width, bottom
         self.parts: list[str] = []
+        self.texts: list[str] = []  # above all lines
         self.taken: dict[str, list[float]] = {"left": [], "middle": []}  # pixels
 
     def x(self, r: float) -> float:
@@ -48,13 +49,15 @@ class Drawing:
         return 26 + self.scale * (depth - self.top)
 
     def add(self, tag: str, words: str = "", **attributes: str | float) -> None:
-        """Add an element; numbers are pixels."""
+        """Add an element, with D_r and s_u as they are written; numbers are pixels."""
         texts = {
             name.strip("_").replace("_", "-"): x if isinstance(x, str) else f"{x:.1f}"
             for name, x in attributes.items()
         }
         inside = " ".join(f'{name}="{text}"' for name, text in texts.items())
-        self.parts.append(f"<{tag} {inside}>{html.escape(words)}</{tag}>")
+        words = html.escape(words.replace("_r", "ᵣ").replace("_u", "ᵤ"))
+        parts = self.texts if tag == "text" else self.parts
+        parts.append(f"<{tag} {inside}>{words}</{tag}>")
 
     def box(self, kind: str, left: float, top: float, right: float, low: float) -> None:
         """Add a rectangle."""
@@ -100,25 +103,27 @@ class Drawing:
         middle = self.free("left", middle) if side < 0 else middle
         self.text(x + 6 * side, middle, words, "end" if side < 0 else "start")
 
-    def rest(self, radius: float, depth: float, words: str) -> None:
-        """Add a line between the walls with a text, not on another one."""
-        y = self.y(depth)
+    def rest(self, radius: float, depth: float, *texts: str) -> None:
+        """Add a line between the walls with the first of texts that is not wider than
+        the caisson, or else the last one, not on another text."""
+        y, room = self.y(depth), 2 * self.scale * radius
         self.line("rest", self.x(-radius), y, self.x(radius), y)
+        words = next((x for x in texts if LETTER * len(x) < room), texts[-1])
         self.text(self.x(0), self.free("middle", y - 4), words, "middle")
 
     def svg(self, words: str) -> str:
         """Return the drawing; words say what it shows."""
-        height = self.y(self.bottom) + 22
+        height, inside = self.y(self.bottom) + 22, "".join(self.parts + self.texts)
         return (
             f'<svg class="sketch" viewBox="0 0 {WIDTH:g} {height:.0f}" role="img"'
-            f' aria-label="{html.escape(words)}">{"".join(self.parts)}</svg>'
+            f' aria-label="{html.escape(words)}">{inside}</svg>'
         )
 
 
 def about_layer(run: Results, layer: Layer, width: float) -> str:
     """Return the most important numbers of a layer, as many as are not wider (pixels):
     the table beside it has all."""
-    strength = strength_of(run, layer)
+    strength = ", ".join(strength_of(run, layer).values())
     words = [f"layer {layer.number}", strength.partition(" (")[0]]
     weight = number_in_words(run, layer, "Submerged unit weight", "N/m3")
     words = [word for word in (*words, f"γ′ {weight}" if weight else "") if word]
@@ -203,15 +208,16 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     drawing.line("dimension", x[0], y, x[1], y)
     for end in x:
         drawing.line("dimension", end, y - 4, end, y + 4)
-    drawing.text(WIDTH / 2, y - 5, f"D = {shown.length(outer)}", "middle")
+    words = f"D = {shown.length(outer)}, t = {1000 * wall:g} mm"
+    drawing.text(WIDTH / 2, y - 5, words, "middle")
     drawing.height(drawing.x(-radius) - 14, lid, depth, f"L = {shown.length(length)}")
     drawing.height(drawing.x(radius) + 14, 0, depth, f"h = {shown.depth(depth)}")
-    words = f"t = {1000 * wall:g} mm"
-    drawing.text(drawing.x(radius) + 4, drawing.y(depth) + 15, words)
     axis = WIDTH / 2
     drawing.line("axis", axis, drawing.y(lid), axis, drawing.y(bottom))
     if rest is not None and 0 < rest < depth:
-        drawing.rest(radius, rest, f"rests by weight at {shown.depth(rest)}")
+        place = shown.depth(rest)
+        drawing.rest(radius, rest, f"rests by weight at {place}", f"rests at {place}")
     if planned > depth + 0.01 * min(length, 1.0):
-        drawing.rest(radius, planned, f"end of the scene at {shown.depth(planned)}")
+        place = shown.depth(planned)
+        drawing.rest(radius, planned, f"end of the scene at {place}", f"end, {place}")
     return drawing.svg("section through caisson and ground, to scale")

@@ -409,6 +409,18 @@ def scene_of(
     )
 
 
+def best_scene(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
+    """Return the text of the scene of the best estimate. Where it lacks a wall friction
+    the program says first what it refuses, as a law that it does not know. Raises
+    SuggestError."""
+    try:
+        return scene_of(options, layers, options.file)
+    except walls.NoAngle:
+        smooth = argparse.Namespace(**{**vars(options), "wall_friction": 0.0})
+        cost_of(options.file, scene_of(smooth, layers, options.file))
+        raise
+
+
 @functools.lru_cache
 def entries_of_layers() -> dict[str, str]:
     """Return the units of all entries of a layer by their names, "" for none, as the
@@ -493,7 +505,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
         body_of(options), begin_of(options), options.weight
     ):
         print(f"warning: {words}")
-    scenes = {BEST: scene_of(options, layers, options.file)}
+    scenes = {BEST: best_scene(options, layers)}
     ends = ends_of(options, known, found) if estimates else {}
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"

@@ -18,6 +18,10 @@ ADHESION_OF_CLAY = Entry(
 )
 
 
+class NoAngle(SuggestError):
+    """A layer has no friction angle from which that of the walls would follow."""
+
+
 def is_by_density(layer: Layer) -> bool:
     """Return whether the strength of a layer follows from its density."""
     return layer.value("Law") in sand.LAWS.values()
@@ -51,7 +55,7 @@ def friction_of(layer: Layer) -> Entry:
     if is_by_density(layer):
         return Entry(FRICTION, sand.WALL_FRICTION.value, sand.WALL_FRICTION.remark)
     if not (angle := angle_of(layer)):
-        raise SuggestError(
+        raise NoAngle(
             f"the soil from {layer.top:g} m has no friction angle from which that of"
             " the walls would follow: give --wall-friction"
         )

@@ -91,7 +91,8 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     if not layers or wall is None or None in ratios:
         return {}
     known = [float(ratio) for ratio in ratios if ratio is not None]
-    return retrieval.allowable(theory.skirt_of(site), layers, known, wall, at)
+    assumed = theory.assumptions_of(site.scene).plug_permeability_ratio
+    return retrieval.allowable(theory.skirt_of(site), layers, known, wall, at, assumed)
 
 
 def retrieval_of(run: Results) -> Retrieval | None:
