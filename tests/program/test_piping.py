@@ -75,9 +75,15 @@ class Piping(ProgramTest):
 
     def test_tension(self) -> None:
         """The soil below the deepest block bears its tension, at most c cot(phi)."""
-        entries: Entries = {f"{LAYER}/Cohesion": 500, f"{LAYER}/Tension cut-off": 300}
-        strength = (2 * 500 + 300) / EMBEDMENT / GAMMA_W
-        self.assert_reported_from(WEIGHT + strength, entries)
+        for angle, cohesion, tension in ((30, 500, 300), (5, 400, 3000)):
+            entries: Entries = {
+                f"{LAYER}/Friction angle": angle,
+                f"{LAYER}/Cohesion": cohesion,
+                f"{LAYER}/Tension cut-off": tension,
+            }
+            strength = (2 * cohesion + tension) / EMBEDMENT / GAMMA_W
+            with self.subTest(tension=tension):
+                self.assert_reported_from(WEIGHT + strength, entries)
 
     def test_layers(self) -> None:
         """A weak layer is lifted off a strong one, however thin it is; a strong one
