@@ -297,6 +297,57 @@ def hidden(rng: np.random.Generator, kind: int) -> np.ndarray:
     return np.asarray(BEST * np.exp(change[kind]))
 
 
+class ByHand(unittest.TestCase):
+    """Logs of few steps in a band of one width, without noise of their own."""
+
+    def setUp(self) -> None:
+        best = BEST / 1e3
+        self.expected = expected.Expected(
+            run=None,  # type: ignore[arg-type]
+            depth=DEPTH,
+            low=best * np.exp(-HALF),
+            best=best,
+            high=best * np.exp(HALF),
+            allowable=np.full(len(DEPTH), BOILING),
+            governing=[""] * len(DEPTH),
+            weight=0.0,
+            area=AREA,
+            source="",
+            planned=END,
+            extrapolated={},
+        )
+
+    def bins_of(self, depth: np.ndarray, share: np.ndarray) -> forecast.Bins:
+        """Return a log at depths [n] (m) of shares [n] of the band."""
+        resistance = self.expected.resistance(depth, share)
+        return forecast.Bins(depth, resistance, np.zeros(len(depth)))
+
+    def test_interval_of_a_rough_log(self) -> None:
+        """Half of the steps at low and half at high: the interval is that of a median
+        deviation of 1, over as many independent steps as lengths of CORRELATION."""
+        depth, share = np.linspace(1, 5.5, 20), np.tile([-1.0, 1.0], 10)
+        fit = forecast.fit_of(self.expected, self.bins_of(depth, share))
+        error = 1.645 * np.hypot(1.4826, 0.15) / np.sqrt(1 + 4.5 / (0.1 * END))
+        self.assertAlmostEqual(fit.share[0], 0, delta=1e-3)
+        self.assertAlmostEqual(fit.share[2] - fit.share[0], error, delta=0.01)
+
+    def test_band_of_a_log_far_outside(self) -> None:
+        """One step at three times the band: the process is as much wider as the square
+        of the step over its variance, and far below half of the variance is known."""
+        bins = self.bins_of(np.array([1.0]), np.array([3.0]))
+        ahead = forecast.forecast_of(self.expected, bins, 0.0)
+        of_soil = 1 / 1.645**2
+        of_step = of_soil + 0.15**2
+        left = 9 / of_step * (of_soil - (0.5 * of_soil) ** 2 / of_step)
+        reach = 2.05 * np.sqrt(left + 0.15**2)
+        middle, high = np.log(ahead.best[-1]), np.log(ahead.high[-1])
+        self.assertAlmostEqual((high - middle) / HALF, reach, delta=0.01)
+        mean = 3 * 0.5 * of_soil / of_step
+        self.assertAlmostEqual(
+            (middle - np.log(BEST[-1] / 1e3 / AREA)) / HALF, mean, delta=0.01
+        )
+
+
 class Reading(unittest.TestCase):
     """Files of logs."""
 

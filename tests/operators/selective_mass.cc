@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Selective mass scaling: the operator L, its bound D, what its polynomial
-// makes of a body that moves as one, and a bar whose factors vary.
-#include <caisson_mpm/kernels/cell_moments.h>
-#include <caisson_mpm/kernels/step_context.h>
+// Selective mass scaling: the factors of cells, the operator L, its bound D,
+// what its polynomial makes of a body that moves as one, how nodes answer to an
+// impulse of contact, and a bar whose factors vary.
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/operators/time_step.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -77,6 +78,89 @@ sum_of_products(const NodalData &x, const NodalData &y)
   for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
     sum += x.local_element(i) * y.local_element(i);
   return sum;
+}
+
+
+
+/** Halved cells have twice the inertia of their parents, whose size is that of
+ * all others. */
+void
+check_factors()
+{
+  Stepper  s(R"(
+  subsection Grid
+    set Geometry          = plane strain
+    set Outer radius      = 4
+    set Bottom            = -4
+    set Top               = 0
+    set Cell width        = 0.5
+    set Cell height       = 0.5
+    set Refinement levels = 1
+    set Refined region    = 1 - r
+  end
+  )",
+            "");
+  TimeStep time_step;
+  auto    &prm = dealii::ParameterAcceptor::prm;
+  prm.parse_input_from_string(
+    "subsection Time\nset Inertia tolerance = 0.5\nend\n");
+  dealii::ParameterAcceptor::parse_all_parameters(prm);
+  time_step.follow_tip([]() { return 240.; });
+  const BackgroundGrid &grid = s.scene.grid;
+  time_step.initialize(*Kernels::select_kernels("auto"),
+                       grid,
+                       s.scene.points,
+                       s.scene.soil,
+                       s.materials);
+  double       error[2] = {0., 0.};
+  unsigned int n[2]     = {0, 0};
+  for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+    {
+      const int    level = grid.cell_iterator(cell)->level();
+      const double found = time_step.inertia_of_deformation()[cell];
+      error[level] =
+        std::max(error[level], std::abs(found - (level == 0 ? 120. : 240.)));
+      ++n[level];
+    }
+  verdict("0.5 x 240 in cells", n[0] > 0 ? error[0] : 1., 1e-9);
+  verdict("twice that in halved ones", n[1] > 0 ? error[1] : 1., 1e-9);
+}
+
+
+
+/** A node at rest answers to an impulse of contact with its lumped mass. */
+void
+check_impulse(const BackgroundGrid       &grid,
+              const NodalMomentum        &momentum,
+              const Kernels::StepContext &step,
+              const std::vector<double>  &factors)
+{
+  const unsigned int              n = grid.n_nodes();
+  std::vector<Kernels::NodalSums> nodes(momentum.sums(), momentum.sums() + n);
+  for (auto &node : nodes)
+    node.deformation_mass = 0.;
+  SelectiveMass mass;
+  mass.initialize(grid);
+  mass.collect(step, factors.data(), nodes.data());
+  std::vector<Kernels::NodalVector> v(n, {{0., 0.}}), u = v;
+  mass.accelerate(nodes.data(), v.data(), u.data());
+  const double impulse[2] = {3., -7.};
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int d = 0; d < 2 && nodes[i].mass > 0.; ++d)
+      u[i].value[d] += impulse[d] / nodes[i].mass;
+  mass.correct(nodes.data(), v.data(), u.data());
+  double       error    = 0.;
+  unsigned int n_scaled = 0;
+  for (unsigned int i = 0; i < n; ++i)
+    if (nodes[i].mass > 0. && nodes[i].deformation_mass > 0.)
+      {
+        ++n_scaled;
+        for (unsigned int d = 0; d < 2; ++d)
+          error = std::max(error,
+                           std::abs(u[i].value[d] * lumped_mass(nodes[i]) -
+                                    impulse[d]));
+      }
+  verdict("impulse: error", n_scaled > 0 ? error : 1., 1e-12);
 }
 
 
@@ -159,6 +243,7 @@ check_operator()
   const double largest = largest_eigenvalue(momentum, x, Lx);
   verdict("D^-1 (M + L): largest eigenvalue, less 1", largest - 1., 1e-12);
   verdict("  and it is reached", .98 - largest, 0.);
+  check_impulse(grid, momentum, step, factors);
 }
 
 
@@ -230,6 +315,8 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  heading("factors of cells");
+  check_factors();
   heading("the operator");
   check_operator();
   heading("a body that moves as one");

@@ -75,9 +75,15 @@ class Piping(ProgramTest):
 
     def test_tension(self) -> None:
         """The soil below the deepest block bears its tension, at most c cot(phi)."""
-        entries: Entries = {f"{LAYER}/Cohesion": 500, f"{LAYER}/Tension cut-off": 300}
-        strength = (2 * 500 + 300) / EMBEDMENT / GAMMA_W
-        self.assert_reported_from(WEIGHT + strength, entries)
+        for angle, cohesion, tension in ((30, 500, 300), (5, 400, 3000)):
+            entries: Entries = {
+                f"{LAYER}/Friction angle": angle,
+                f"{LAYER}/Cohesion": cohesion,
+                f"{LAYER}/Tension cut-off": tension,
+            }
+            strength = (2 * cohesion + tension) / EMBEDMENT / GAMMA_W
+            with self.subTest(tension=tension):
+                self.assert_reported_from(WEIGHT + strength, entries)
 
     def test_layers(self) -> None:
         """A weak layer is lifted off a strong one, however thin it is; a strong one
@@ -104,6 +110,38 @@ class Piping(ProgramTest):
                 },
             )
             self.assertEqual("piping" in text.lower(), is_told, text)
+
+
+class Pulled(ProgramTest):
+    """The body leaves the ground."""
+
+    def test_plug_beside_displaced_soil(self) -> None:
+        """A thick wall leaves the ground without suction: the plug rises by more than
+        the wall displaces once the volume that it leaves is that of a rise by 2 % of
+        its radius."""
+        path = self.directory()
+        entries: Entries = {
+            "Rigid body/Wall thickness": 0.8,
+            "Rigid body/Cells across the wall": 4,
+            "Rigid body/Velocity": -0.1,
+            "Rigid body/Ramp time": 0,
+            "Rigid body/Initial penetration": 0.8,
+            "Grid/Bottom": -8,
+            "Grid/Moving zone below tip": 3,
+            "Time/End penetration": 0.71,
+            "Output/Record interval": 0.1,
+        }
+        text = self.run_scene("suction", path, entries=entries)
+        inner, outer = 2.2, 3.0  # m
+        rise_per_travel = (outer**2 - inner**2) / inner**2
+        first = next(
+            row["penetration_m"]
+            for row in history(path)
+            if row["plug_heave_m"] + (0.8 - row["penetration_m"]) * rise_per_travel
+            > 0.02 * outer
+        )
+        words = f"rises by more than the wall displaces at a penetration of {first:g} m"
+        self.assert_words([words], text)
 
 
 if __name__ == "__main__":
