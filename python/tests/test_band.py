@@ -58,7 +58,9 @@ class Estimates(unittest.TestCase):
         """At its points of 5 and 95 %, of words, numbers and expressions; a relative
         density is at most 1."""
         found = self.ends(SOIL, spread="Dr 20%, su 10%")
-        density = [float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS]
+        density = [
+            float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS
+        ]
         self.assertEqual(density, [0.3355, 0.6645])
         strength = [found[x][1].value("Cohesion") for x in low_and_high.SIGNS]
         words = [f"{factor}*(1000*(4 + 2*d))" for factor in (0.8355, 1.1645)]
