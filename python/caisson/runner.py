@@ -8,6 +8,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import subprocess
 import tempfile
 import threading
@@ -16,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from caisson.paths import PROGRAM, WORK
+from caisson.paths import INSTALLED, PROGRAM, WORK
 from caisson.ranks import Size
 from caisson.units import SECONDS
 from caisson import disk
@@ -107,6 +108,14 @@ def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     if done.returncode != Status.SUCCESS:
         raise RunError(done.stdout.strip())
     return done.stdout.strip()
+
+
+def command_for(scene: Path, estimates: Sequence[str], *options: str) -> str:
+    """Return the command that runs a scene, with these estimates beside it, as a shell
+    reads it; options: further ones."""
+    run = "caisson run" if INSTALLED else "scripts/run"
+    name = shlex.quote(str(scene)) if scene.name[0] != "-" else f"./{scene}"
+    return " ".join([run, *["--band"] * bool(estimates), *options, name])
 
 
 def size_in(output: str) -> Size:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One page on a run, report.html in its directory: curves, tables, pictures, and what
 the program warned of. It needs no other file and no network. Until the run ends, the
-page reloads itself, and `caisson run` renews it."""
+page reloads itself, and `caisson run` renews it. Of a scene, FILE.prm, it is FILE.html
+beside it, by hand methods, before any run."""
 import argparse
 import shutil
 import subprocess
@@ -9,11 +10,13 @@ from math import inf
 from pathlib import Path
 
 from caisson import disk, run_error_bar
+from caisson.band import SCENE
 from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, adopt_what_is_beside, draw, keep_methods
 from caisson.results import Results, ResultsError
 
 NAME = "report.html"
+OF_A_RUN = ("jacked", "error_bar", "author", "checked")  # options
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -85,7 +88,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " and friction; its history is kept as jacked.csv"
     )
     add("--jacked", type=Path, metavar="DIR", help=text)
-    add("directories", nargs="+", type=Path, metavar="DIR")
+    text = "the results of a run, or a scene, FILE.prm, before any run"
+    add("directories", nargs="+", type=Path, metavar="DIR", help=text)
     text = (
         "the error bar of the scene, by caisson error-bar; default: that beside"
         " FILE.prm, FILE_error_bar.csv"
@@ -99,12 +103,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--pdf", action="store_true", help="print it to report.pdf too")
 
 
+def write_before(scene: Path, options: argparse.Namespace) -> None:
+    """Write the page of a scene before any run. Raises ResultsError."""
+    from caisson.report import before
+    from caisson.verdict.installation import Rate
+
+    if unused := [x for x in OF_A_RUN if getattr(options, x)]:
+        name = unused[0].replace("_", "-")
+        raise ResultsError(f"{scene} has no run yet: leave --{name} out")
+    rate = options.rate
+    path = before.write(
+        scene,
+        Rate() if rate is None else Rate(rate, False),
+        lambda directory: keep_methods(options, directory),
+    )
+    if path is not None:
+        print(f"report: {path}")
+        if options.pdf:
+            print(f"report: {print_pdf(path)}")
+
+
 def main(options: argparse.Namespace) -> int:
     """Write the report of each run; a run that has none is named."""
     from caisson.report import relief, trace
 
     def write_one(directory: Path) -> None:
         check_rate(options.rate)
+        if directory.suffix == SCENE and not directory.is_dir():
+            return write_before(directory, options)
         if keep_methods(options, directory):
             draw(directory)
         if options.jacked is not None:

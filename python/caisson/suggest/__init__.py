@@ -44,11 +44,11 @@ from caisson.design import cone_file, cone_options, cone_texts, interpretation
 from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
-from caisson.runner import query
+from caisson.runner import command_for, query
 from caisson.suggest import clay, cone, low_and_high, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import layers_of
-from caisson.suggest.trial import by_hand, cost_of, page_of, run_of
+from caisson.suggest.trial import by_hand, cost_of, page_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -166,7 +166,7 @@ def check(options: argparse.Namespace, estimates: Sequence[str] = ()) -> None:
     if options.study and options.cpt:
         raise SuggestError(
             "--study: low and high of a cone test are scenes, too, which"
-            f" `{run_of(options.file, [LOW, HIGH])}` runs; leave it out"
+            f" `{command_for(options.file, [LOW, HIGH])}` runs; leave it out"
         )
 
 
@@ -551,9 +551,9 @@ def main(options: argparse.Namespace) -> int:
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
     if page:
         files.append(disk.write(page_of(options.file), page))
-    run = run_of(options.file, estimates)
+    run = command_for(options.file, estimates)
     print(f"written: {', '.join(map(str, files))}; next: {run}")
-    way = run_of(options.file, [], f"--error {options.error}%")
+    way = command_for(options.file, [], f"--error {options.error}%")
     print(
         f"The mesh is an estimate for {options.error} %. To find the one that has this"
         f" error, with its error bar: {way}"

@@ -3,22 +3,16 @@
 hand methods say, on its page."""
 import concurrent.futures
 import re
-import shlex
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from caisson import disk
 from caisson.design import cone as cone_test
-from caisson.paths import INSTALLED
-from caisson.results import ResultsError
-from caisson.runner import RunError, query
+from caisson.runner import RunError, command_for, query
 from caisson.suggest.entry import SuggestError
 
 FAILS = "the first steps of the run fail"  # of --validate
-DURATION = re.compile(r"^ *duration +(about [^:]+):", re.M)  # of it, too
-STEP = re.compile(r"^ *time step +([\d.e-]+) s", re.M)
-FEW_STEPS = 4  # which show that a scene runs
 
 
 def said_of(text: str, file: Path, copy: Path, said: str) -> str:
@@ -56,14 +50,6 @@ def page_of(scene: Path) -> Path:
     return scene.with_suffix(".html")
 
 
-def run_of(scene: Path, estimates: Sequence[str], *options: str) -> str:
-    """Return the command that runs a scene, with these estimates beside it, as a shell
-    reads it; options: further ones."""
-    run = "caisson run" if INSTALLED else "scripts/run"
-    name = shlex.quote(str(scene)) if scene.name[0] != "-" else f"./{scene}"
-    return " ".join([run, *["--band"] * bool(estimates), *options, name])
-
-
 def by_hand(
     file: Path,
     texts: Mapping[str, str],
@@ -75,18 +61,11 @@ def by_hand(
     nothing where no hand method knows the ground. texts: the scenes by estimate; cost:
     what the program says of it; estimates: of which scenes are to be written; test: the
     table of a cone test. Raises SuggestError where a scene does not run."""
-    from caisson.report import low_and_high
-    from caisson.report import page, verdict
+    from caisson.report import before
     from caisson.verdict import by_hand as methods
-    from caisson.verdict.installation import Rate
 
-    duration, step = DURATION.search(cost), STEP.search(cost)
-    seconds = FEW_STEPS * float(step[1]) if step else 0.0
-    to_come = {
-        "scene_file": str(file),
-        "cost": duration[1] if duration else "",
-        "next": run_of(file, estimates),
-    }
+    seconds, to_come = before.seconds_of(cost), before.to_come(file, cost)
+    to_come["next"] = command_for(file, estimates)
 
     def made(estimate: str) -> methods.ByHand:
         directory = Path(folder, estimate)
@@ -107,14 +86,4 @@ def by_hand(
     with tempfile.TemporaryDirectory() as folder:
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             members = dict(zip(texts, pool.map(made, texts)))
-        best = methods.band_of(members)
-        try:
-            found = page.html(best, Rate())
-        except ResultsError as error:
-            print(f"no page: {error}")
-            return ""
-        for line in filter(
-            None, [*verdict.lines_of(best), low_and_high.sentence_of(best)]
-        ):
-            print(line)
-    return found
+        return before.page_of(members)
