@@ -46,30 +46,66 @@ namespace CaissonMPM
       return format("%02ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
     }
 
+    double
+    number(const RecordLine &line, const std::string &column)
+    {
+      return number_named(column, line.row).value_or(0.);
+    }
+
     std::string
     plain_record(const RecordLine &line)
     {
+      const auto shown = [&line](const std::string &column) {
+        return without_noise(number(line, column));
+      };
+      const auto force = [&line](const std::string &column) {
+        return without_noise(1e-3 * number(line, column));
+      };
       const std::string done =
         format(" | %.6g %%\n", 100. * line.fraction_done);
-      if (!line.has_body)
+      if (!number_named("tip_force_N", line.row))
         return format("time %.6g s | kinetic energy %.6g J | "
                       "max speed %.6g m/s",
-                      line.time,
-                      without_noise(line.kinetic_energy),
-                      without_noise(line.max_speed)) +
+                      number(line, "time_s"),
+                      shown("kinetic_energy_J"),
+                      shown("max_speed_m_s")) +
                done;
-      const double kN = 1e-3;
       return format("pen %.6g m | tip %.6g inner %.6g outer %.6g "
                     "total %.6g kN",
-                    line.penetration,
-                    without_noise(kN * line.tip),
-                    without_noise(kN * line.inner),
-                    without_noise(kN * line.outer),
-                    without_noise(kN * line.total)) +
-             (line.with_water ? format(", with water %.6g kN",
-                                       without_noise(kN * *line.with_water)) :
-                                "") +
+                    number(line, "penetration_m"),
+                    force("tip_force_N"),
+                    force("inner_friction_N"),
+                    force("outer_friction_N"),
+                    force("total_force_N")) +
+             (number_named("total_force_with_water_N", line.row) ?
+                format(", with water %.6g kN",
+                       force("total_force_with_water_N")) :
+                "") +
              done;
+    }
+
+    /** What the full line says of the water, where there is any. */
+    std::string
+    water_in_full(const RecordLine &line, const ShownUnit &force)
+    {
+      std::string text;
+      if (const auto total = number_named("total_force_with_water_N", line.row))
+        text +=
+          format(", with water %7.1f ", force.factor * *total) + force.name;
+      if (const auto suction = number_named("suction_Pa", line.row))
+        {
+          const ShownUnit unit = unit_of_stresses(std::abs(*suction));
+          text +=
+            format(" | suction %5.1f ", unit.factor * *suction) + unit.name;
+        }
+      if (const auto critical = number_named("critical_gradient", line.row))
+        {
+          const double gradient = std::max(number(line, "exit_gradient_wall"),
+                                           number(line, "exit_gradient_axis"));
+          text += format(", gradient %3.0f %% of critical",
+                         *critical > 0. ? 100. * gradient / *critical : 0.);
+        }
+      return text;
     }
 
     std::string
@@ -79,40 +115,29 @@ namespace CaissonMPM
       if (std::isfinite(line.eta_seconds))
         rest += " | ETA " + clock_time(line.eta_seconds);
       rest += "\n";
-      if (!line.has_body)
+      if (!number_named("tip_force_N", line.row))
         return format("time %8.4f s | kinetic energy %9.3e J | "
                       "max speed %9.3e m/s",
-                      line.time,
-                      line.kinetic_energy,
-                      line.max_speed) +
+                      number(line, "time_s"),
+                      number(line, "kinetic_energy_J"),
+                      number(line, "max_speed_m_s")) +
                rest;
-      const double    water   = line.with_water.value_or(0.);
-      const ShownUnit suction = unit_of_stresses(std::abs(line.suction)),
-                      length  = unit_of_lengths(line.length),
-                      force   = unit_of_forces(std::max({std::abs(line.total),
-                                                         std::abs(line.tip),
-                                                         std::abs(water)}));
-      const int n_digits      = length.factor > 1. ? 1 : 3;
-      if (line.gradient_ratio)
-        rest = format(", gradient %3.0f %% of critical",
-                      100. * *line.gradient_ratio) +
-               rest;
-      if (line.has_suction)
-        rest = format(" | suction %5.1f ", suction.factor * line.suction) +
-               suction.name + rest;
-      if (line.with_water)
-        rest = format(", with water %7.1f ", force.factor * water) +
-               force.name + rest;
+      const double total     = number(line, "total_force_N"),
+                   tip       = number(line, "tip_force_N"),
+                   water     = number(line, "total_force_with_water_N");
+      const ShownUnit length = unit_of_lengths(line.length),
+                      force  = unit_of_forces(std::max(
+                        {std::abs(total), std::abs(tip), std::abs(water)}));
       return format("pen %6.*f %s | tip %7.1f inner %7.1f outer %7.1f "
                     "total %7.1f ",
-                    n_digits,
-                    length.factor * line.penetration,
+                    length.factor > 1. ? 1 : 3,
+                    length.factor * number(line, "penetration_m"),
                     length.name.c_str(),
-                    force.factor * line.tip,
-                    force.factor * line.inner,
-                    force.factor * line.outer,
-                    force.factor * line.total) +
-             force.name + rest;
+                    force.factor * tip,
+                    force.factor * number(line, "inner_friction_N"),
+                    force.factor * number(line, "outer_friction_N"),
+                    force.factor * total) +
+             force.name + water_in_full(line, force) + rest;
     }
 
     /** Of the longest key in the summary of a scene, "material points", so that

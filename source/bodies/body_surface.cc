@@ -71,7 +71,7 @@ namespace CaissonMPM
     if (shape.left() <= 0.)
       add_unused(inner_wall,
                  "the body has no inner wall: Rigid body/Kind is " +
-                   shape.name());
+                   shape.name);
     if (!shape.has_ledges())
       add_unused(ring,
                  "the body has no ring, and no wall step that makes it "

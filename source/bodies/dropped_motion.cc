@@ -23,7 +23,8 @@ namespace CaissonMPM
   DroppedMotion::DroppedMotion()
     : LoadedMotion(
         "dropped",
-        "weight and suction accelerate the body, and the soil slows it down")
+        "weight and suction accelerate the body, and the soil slows it down",
+        true)
   {
     add_word_or_number(
       *this,
@@ -56,24 +57,25 @@ namespace CaissonMPM
   void
   DroppedMotion::move(const double dt, const double force)
   {
+    const auto &[load, mass, response] = surroundings;
     unforeseen += last_step * (force - expected_force);
     const double between  = .5 * (last_step + dt), // the middles of both steps
       impulse             = share_of_unforeseen * unforeseen,
                  share    = release > 0. ? std::min(time_ / release, 1.) : 1.,
                  before   = beginning().load,
-                 released = before + share * (load() - before),
-                 soil     = response().mass * between / dt,
-                 a        = (released + response().force + impulse / between) /
-                     (inertia.value_or(mass()) + soil),
+                 released = before + share * (load - before),
+                 soil     = response.mass * between / dt,
+                 a        = (released + response.force + impulse / between) /
+                     (inertia.value_or(mass) + soil),
                  middle = mean_velocity_ + between * a;
     unforeseen -= impulse;
     travel_ += dt * middle;
     velocity_      = middle + .5 * dt * a;
-    expected_force = response().force - soil * a;
+    expected_force = response.force - soil * a;
     last_step      = dt;
     resistance.add(dt, smoothing, -force);
     rest.look(dt,
-              {load(), resistance.value(), velocity_, travel_},
+              {load, resistance.value(), velocity_, travel_},
               speed_at_rest);
   }
 

@@ -48,16 +48,17 @@ namespace CaissonMPM
   void
   LoweredMotion::move(const double dt, const double force)
   {
+    const double load = surroundings.load;
     resistance.add(dt, delay, -force);
-    const double excess = load() - resistance.value(),
-                 scale  = std::max(share_of_load * std::abs(load()), 1.),
+    const double excess = load - resistance.value(),
+                 scale  = std::max(share_of_load * std::abs(load), 1.),
                  wanted = largest_velocity *
                           std::clamp(excess / scale, slowest_rise, 1.),
                  change = largest_velocity * dt / ramp;
     velocity_ += std::clamp(wanted - velocity_, -change, change);
     travel_ += dt * velocity_;
     rest.look(dt,
-              {load(), resistance.value(), velocity_, travel_},
+              {load, resistance.value(), velocity_, travel_},
               share_at_rest * largest_velocity);
   }
 } // namespace CaissonMPM

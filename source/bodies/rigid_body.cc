@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/time_table.h>
 #include <caisson_mpm/bodies/box.h>
 #include <caisson_mpm/bodies/caisson.h>
 #include <caisson_mpm/bodies/cone.h>
@@ -94,9 +93,9 @@ namespace CaissonMPM
       Choices<std::size_t> choices;
       for (std::size_t i = first; i < objects.size(); ++i)
         {
-          choices.emplace_back(objects[i]->name(), i);
-          text += (i == first ? ": " : "; ") + objects[i]->name() + " (" +
-                  objects[i]->description() + ")";
+          choices.emplace_back(objects[i]->name, i);
+          text += (i == first ? ": " : "; ") + objects[i]->name + " (" +
+                  objects[i]->description + ")";
         }
       return add_choice(owner, entry, chosen, choices, "", text + ".");
     }
@@ -163,7 +162,7 @@ namespace CaissonMPM
     const double buoyancy = soil.unit_weight_of_water() * mass / density;
     submerged_weight_     = weight.value_or(-soil.gravity[vertical] * mass -
                                         (soil.is_submerged() ? buoyancy : 0.));
-    motion().set_mass(mass);
+    motion().surroundings.mass = mass;
   }
 
   void
@@ -175,11 +174,11 @@ namespace CaissonMPM
     for (std::size_t i = 0; i < shapes.size(); ++i)
       if (i != chosen_shape)
         shapes[i]->check_not_chosen();
-    if (shape().expands() && motion().follows_loads())
-      throw BadInput("Rigid body/Motion is " + motion().name() +
+    if (shape().expands() && motion().traits.follows_loads)
+      throw BadInput("Rigid body/Motion is " + motion().name +
                      ": the weight does not expand a cylinder. Set Motion = "
                      "prescribed.");
-    if (shape().exists() && motion().name() == "lowered" && weight == 0.)
+    if (shape().exists() && motion().name == "lowered" && weight == 0.)
       throw BadInput("Rigid body/Motion is lowered, but Rigid body/Submerged "
                      "weight is 0: a body without weight neither sinks nor "
                      "comes to rest on the soil. Set its weight in N.");
@@ -197,16 +196,16 @@ namespace CaissonMPM
     name_entries_of_others(origins,
                            shape(),
                            shapes,
-                           "Rigid body/Kind is " + shape().name());
+                           "Rigid body/Kind is " + shape().name);
     name_entries_of_others(origins,
                            motion(),
                            motions,
-                           "Rigid body/Motion is " + motion().name());
+                           "Rigid body/Motion is " + motion().name);
     shape().name_unused_entries(origins);
     surface().name_unused_surfaces(origins, shape());
     motion().name_unused_entries(origins);
-    if (!motion().follows_loads())
+    if (!motion().traits.follows_loads)
       origins.add_unused({"Rigid body/Force table"},
-                         "Rigid body/Motion is " + motion().name());
+                         "Rigid body/Motion is " + motion().name);
   }
 } // namespace CaissonMPM

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/compat.h>
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {

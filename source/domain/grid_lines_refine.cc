@@ -10,7 +10,6 @@
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace CaissonMPM
 {

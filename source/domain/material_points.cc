@@ -4,13 +4,12 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <sstream>
 
 namespace CaissonMPM
 {

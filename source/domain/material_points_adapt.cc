@@ -5,8 +5,7 @@
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_fields.h>
-#include <caisson_mpm/kernels/cells.h>
-#include <caisson_mpm/kernels/update_result.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include <deal.II/base/patterns.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 

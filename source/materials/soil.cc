@@ -9,7 +9,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace CaissonMPM
 {

@@ -2,7 +2,7 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 
 #include <cmath>

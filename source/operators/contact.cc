@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/contact.h>
 
 #include <cmath>

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/kernels/cell_map.h>
-#include <caisson_mpm/kernels/cell_moments.h>
 #include <caisson_mpm/kernels/kernel_table.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/contact_corners.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace CaissonMPM
 {

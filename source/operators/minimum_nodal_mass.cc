@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/cells.h>
 #include <caisson_mpm/kernels/kernel_table.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/consistent_mass.h>
 #include <caisson_mpm/operators/minimum_nodal_mass.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/kernels/cell_map.h>
 #include <caisson_mpm/kernels/kernel_table.h>
-#include <caisson_mpm/kernels/update_result.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 
 namespace CaissonMPM

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/operators/local_damping.h>
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/operators/nodal_data.h>
 #include <caisson_mpm/operators/nodal_work.h>
 
-#include <algorithm>
 
 namespace CaissonMPM
 {

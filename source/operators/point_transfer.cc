@@ -3,7 +3,6 @@
 #include <caisson_mpm/operators/consistent_mass.h>
 #include <caisson_mpm/operators/point_transfer.h>
 
-#include <algorithm>
 
 namespace CaissonMPM
 {

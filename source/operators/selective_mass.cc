@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/kernels/cell_map.h>
-#include <caisson_mpm/kernels/cell_moments.h>
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/selective_mass.h>
 
 #include <algorithm>

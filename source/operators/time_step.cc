@@ -2,15 +2,13 @@
 #include <caisson_mpm/base/choice.h>
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/kernels/cells.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/selective_mass.h>
 #include <caisson_mpm/operators/time_step.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace CaissonMPM

@@ -4,13 +4,11 @@
 #include <caisson_mpm/output/frame_data.h>
 #include <caisson_mpm/output/point_quantities.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace CaissonMPM
 {

@@ -4,7 +4,6 @@
 #include <caisson_mpm/output/point_quantities.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace CaissonMPM
 {

@@ -3,7 +3,6 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/installation.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 

@@ -13,17 +13,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace CaissonMPM
 {
   using namespace dealii;
 
-  Recorder::Recorder(const RecordedParts &parts)
+  Recorder::Recorder(SimulationParts &parts)
     : Section("/", Influence::none)
     , parts(parts)
   {
-    add_parameter("Title", title, "", "The title says what the scene is.")
+    add_parameter("Title", known.title, "", "The title says what the scene is.")
       .influence = Influence::motion;
     enter_subsection("Output");
     add_parameter(
@@ -71,10 +70,10 @@ namespace CaissonMPM
     totals.keep("travel_at_record", travel_at_record);
     totals.keep("time_of_last_frame", last_frame);
     totals.keep("walls_are_requested", wants_walls);
-    totals.keep("max_points_in_body", max_in_body);
+    totals.keep("max_points_in_body", known.max_in_body);
     totals.sum("point_steps", point_steps);
     totals.keep("wall_time", wall_time);
-    totals.keep("repartitions", n_repartitions);
+    totals.keep("repartitions", known.n_repartitions);
     totals.keep("lid_is_touched", at_lid);
     totals.keep("has_reported_rest", has_reported_rest);
     totals.keep("has_reported_suction", has_reported_suction);
@@ -90,30 +89,7 @@ namespace CaissonMPM
   void
   Recorder::check_parameters()
   {
-    observations.initialize(history_names(scene_parts(), count_names()));
-  }
-
-  SceneParts
-  Recorder::scene_parts() const
-  {
-    const BodyShape &shape = parts.body.shape();
-    return {shape.exists(),
-            number_named("skirt_length_m", shape.dimensions()).has_value(),
-            shape.has_ledges(),
-            shape.exists() && shape.expands(),
-            parts.boundary_conditions.prescribe_a_region(),
-            parts.generator.splits_and_merges(),
-            shape.exists() && !shape.expands() &&
-              parts.water->traits().resists_body};
-  }
-
-  std::vector<std::string>
-  Recorder::count_names() const
-  {
-    auto names = parts.totals.count_names();
-    for (const std::string &name : parts.water->column_names())
-      names.push_back(name);
-    return names;
+    observations.initialize(column_names());
   }
 
   Console::Verbosity
@@ -141,11 +117,12 @@ namespace CaissonMPM
                      const Kernels::KernelTable &kernels)
   {
     start_time         = std::chrono::steady_clock::now();
-    scene              = scene_file;
-    command            = command_words;
-    this->fingerprint  = fingerprint;
-    this->installation = installation;
-    this->kernels      = &kernels;
+    known.scene_file   = scene_file;
+    known.command      = command_words;
+    known.fingerprint  = fingerprint;
+    known.installation = installation;
+    known.kernels      = kernels.name;
+    n_lanes            = kernels.width;
     OutputDirectory::check(directory, parts.grid.communicator());
     console = std::make_unique<Console>(verbosity());
   }
@@ -174,10 +151,15 @@ namespace CaissonMPM
   {
     locked_directory =
       std::make_unique<OutputDirectory>(directory, parts.grid.communicator());
-    records       = std::make_unique<Records>(directory,
-                                        observations,
-                                        scene_parts(),
-                                        count_names());
+    history =
+      std::make_unique<RowFile>(directory + "/history.csv", column_names(), 10);
+    if (auto names = observations.names(); !names.empty())
+      {
+        names.insert(names.begin(), "time_s");
+        // all digits, so that a restart sees the same numbers
+        observed =
+          std::make_unique<RowFile>(directory + "/observations.csv", names, 17);
+      }
     visualization = std::make_unique<Visualization>(directory);
     if (has_walls())
       wall_file = std::make_unique<WallFile>(
@@ -201,7 +183,9 @@ namespace CaissonMPM
           {{"earlier run", "its results have been moved to " + place}});
     if (parts.grid.is_first_rank())
       {
-        records->create();
+        history->create();
+        if (observed)
+          observed->create();
         if (wall_file)
           wall_file->create();
       }
@@ -217,13 +201,30 @@ namespace CaissonMPM
           to_text(n_files) + " files of an earlier run in " + directory}});
   }
 
+  namespace
+  {
+    void
+    check_observations(const std::size_t n_of_history,
+                       const std::size_t n_observed)
+    {
+      if (n_observed != n_of_history)
+        throw BadInput("observations.csv has " + to_text(n_observed) +
+                       " rows up to the checkpoint and history.csv " +
+                       to_text(n_of_history) +
+                       ", so that the run cannot continue them. Run without "
+                       "--restart, or without Verification/Observations.");
+    }
+  } // namespace
+
   void
   Recorder::resume(const bool overwrite)
   {
     check_for_lost_rows(overwrite);
     if (parts.grid.is_first_rank())
       {
-        records->resume(parts.clock.time);
+        const auto n_rows = history->resume(parts.clock.time).size();
+        if (observed)
+          check_observations(n_rows, observed->resume(parts.clock.time).size());
         if (wall_file)
           wall_file->resume(parts.clock.time);
       }
@@ -249,8 +250,8 @@ namespace CaissonMPM
   void
   Recorder::store_file_hashes()
   {
-    files = {records->history_fingerprint(),
-             records->observations_fingerprint(),
+    files = {history->fingerprint(),
+             observed ? observed->fingerprint() : 0.,
              visualization->fingerprint()};
   }
 
@@ -280,11 +281,12 @@ namespace CaissonMPM
   {
     constexpr double tolerance    = 1e-6; // times are rounded in the file
     const MPI_Comm   communicator = parts.grid.communicator();
-    const double     found =
-      Utilities::MPI::broadcast(communicator,
-                                parts.grid.is_first_rank() ?
-                                  records->last_time_until(parts.clock.time) :
-                                  0.);
+    double           found        = -1.; // no rows
+    if (parts.grid.is_first_rank())
+      if (const auto rows = history->rows_until(parts.clock.time);
+          !rows.empty())
+        found = rows.back()[0];
+    found = Utilities::MPI::broadcast(communicator, found);
     if (std::abs(found - last_record) <= tolerance * last_record)
       return;
     const std::string text =
@@ -323,7 +325,7 @@ namespace CaissonMPM
   void
   Recorder::print_header(const ParameterOrigins &input)
   {
-    assumed         = input.assumed();
+    known.assumed   = input.assumed();
     double own_mass = 0.;
     for (const BodyPoint &p : parts.body_points)
       own_mass += p.mass;
@@ -337,19 +339,18 @@ namespace CaissonMPM
     Console::Lines first            = {
                  {"caisson_mpm",
                   std::string(program_version()) + ", deal.II " DEAL_II_PACKAGE_VERSION},
-                 {"scene", scene},
+                 {"scene", known.scene_file},
                  {"output", directory},
-                 {"kernels",
-                  std::string(kernels->name) + ", " + to_text(kernels->width) + " lanes"},
+                 {"kernels", known.kernels + ", " + to_text(n_lanes) + " lanes"},
                  {"ranks", to_text(parts.grid.n_ranks())},
                  {"step limited by", parts.time_step.reason()}};
     if (const double n_steps = steps_left(); std::isfinite(n_steps))
       first.emplace_back("steps", "about " + rough(n_steps));
-    if (!installation.empty())
-      first.emplace_back("installation", installation);
+    if (!known.installation.empty())
+      first.emplace_back("installation", known.installation);
     console->header(first);
     std::vector<std::pair<std::string, std::string>> lines = {
-      {"title", title},
+      {"title", known.title},
       {"grid", parts.grid.lines().description()},
       {"material points",
        n_points + ", and " + n_body_points + " of the body (" +
@@ -402,20 +403,11 @@ namespace CaissonMPM
   RunFacts
   Recorder::own_facts(const std::string &status) const
   {
-    RunFacts result;
-    result.status         = status;
-    result.scene_file     = scene;
-    result.command        = command;
-    result.title          = title;
-    result.fingerprint    = fingerprint;
-    result.installation   = installation;
-    result.kernels        = kernels->name;
-    result.n_repartitions = n_repartitions;
-    result.max_in_body    = max_in_body;
-    result.n_steps        = parts.clock.step;
-    result.wall_time      = seconds_running();
-    result.warnings       = console->warnings();
-    result.assumed        = assumed;
+    RunFacts result  = known;
+    result.status    = status;
+    result.n_steps   = parts.clock.step;
+    result.wall_time = seconds_running();
+    result.warnings  = console->warnings();
     return result;
   }
 
@@ -430,10 +422,10 @@ namespace CaissonMPM
   Recorder::write_progress(const double fraction_done,
                            const double eta_seconds) const
   {
-    RunFacts known = own_facts("running");
-    known.progress = {{"fraction_done", fraction_done},
+    RunFacts facts = own_facts("running");
+    facts.progress = {{"fraction_done", fraction_done},
                       {"remaining_s", eta_seconds}};
-    write_early_summary(directory + "/run.json", parts, known);
+    write_early_summary(directory + "/run.json", parts, facts);
   }
 
   void
@@ -441,9 +433,9 @@ namespace CaissonMPM
   {
     try
       {
-        RunFacts known = own_facts("failed");
-        known.failure  = reason;
-        write_early_summary(directory + "/run.json", parts, known);
+        RunFacts facts = own_facts("failed");
+        facts.failure  = reason;
+        write_early_summary(directory + "/run.json", parts, facts);
       }
     catch (const std::exception &)
       {
@@ -462,7 +454,7 @@ namespace CaissonMPM
   Recorder::warn_of_no_rest()
   {
     const BodyMotion &motion = parts.body.motion();
-    if (!motion.follows_loads() || motion.travel_at_rest())
+    if (!motion.traits.follows_loads || motion.travel_at_rest())
       return;
     const LidCompartment *const lid    = parts.water->traits().lid;
     const std::string           weight = "Rigid body/Submerged weight (" +

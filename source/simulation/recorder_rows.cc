@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace CaissonMPM
 {
@@ -29,34 +30,131 @@ namespace CaissonMPM
     point_steps += parts.points.n_points();
   }
 
+  std::vector<Recorder::Column>
+  Recorder::columns() const
+  {
+    const BodyShape &shape = parts.body.shape();
+    const bool       body = shape.exists(), expands = body && shape.expands(),
+               caisson =
+                 number_named("skirt_length_m", shape.dimensions()).has_value(),
+               water = body && !expands && parts.water->traits().resists_body,
+               prescribed = parts.boundary_conditions.prescribe_a_region();
+    const auto force      = [this](const Surface surface) {
+      return [=]() { return recorded_forces[surface]; };
+    };
+    const auto on_soil = [this](const unsigned int component) {
+      return [=]() { return force_on_soil[component]; };
+    };
+    const auto total = [this]() {
+      return std::accumulate(recorded_forces.begin(),
+                             recorded_forces.end(),
+                             0.);
+    };
+    const auto sum = [this](const auto of_rank) {
+      return Utilities::MPI::sum(of_rank, parts.grid.communicator());
+    };
+    const auto &contact = parts.nodal_motion.reactions().contact;
+
+    std::vector<Column> all = {
+      {"time_s", true, [=]() { return parts.clock.time; }},
+      {"penetration_m", true, [=]() { return parts.body.penetration(); }},
+      {"tip_force_N", body, force(tip)},
+      {"inner_friction_N", body, force(inner_wall)},
+      {"outer_friction_N", body, force(outer_wall)},
+      {"total_force_N", body, total},
+      {"total_force_with_water_N",
+       water,
+       [=]() { return total() + recorded_force_of_water; }},
+      {"top_force_N", body, force(top)},
+      {"kinetic_energy_J", true, [=]() { return energies.kinetic; }},
+      {"external_work_J", true, [=]() { return parts.energy.work_of_body; }},
+      {"water_work_J", water, [=]() { return parts.energy.work_on_water; }},
+      {"added_mass_kg",
+       true,
+       [=]() {
+         return parts.grid.circumference() *
+                sum(parts.nodal_motion.added_inertia());
+       }},
+      {"max_speed_m_s", true, [=]() { return max_speed; }},
+      {"time_step_s", true, [=]() { return parts.clock.step_size; }},
+      {"points_in_body", body, [=]() { return n_in_body; }},
+      {"contact_nodes", body, [&, sum]() { return sum(contact.n_touching); }},
+      {"sticking_nodes", body, [&, sum]() { return sum(contact.n_sticking); }},
+      {"step", true, [=]() { return parts.clock.step; }},
+      {"lid_force_N", caisson, force(lid)},
+      {"ring_force_N", shape.has_ledges(), force(ring)},
+      {"cavity_pressure_Pa", expands, [=]() { return pressure_of_cavity; }},
+      {"prescribed_force_r_N", prescribed, on_soil(radial)},
+      {"prescribed_force_z_N", prescribed, on_soil(vertical)}};
+    for (const EnergyBalance::Term &term : EnergyBalance::terms())
+      all.push_back(
+        {term.name, true, [=]() { return parts.energy.*term.value; }});
+    return all;
+  }
+
+  bool
+  Recorder::has_count(const std::string &name) const
+  {
+    if (name == "points_split" || name == "points_merged")
+      return parts.generator.splits_and_merges();
+    return parts.body.shape().exists() ||
+           (name != "soil_into_body_m3" && name != "held_back_count");
+  }
+
+  NamedNumbers
+  Recorder::find_row() const
+  {
+    NamedNumbers row;
+    for (const Column &column : columns())
+      if (column.is_present)
+        row.emplace_back(column.name, column.value());
+    for (const auto &count : parts.totals.counts())
+      if (has_count(count.first))
+        row.push_back(count);
+    for (const auto &column : parts.water->columns())
+      row.push_back(column);
+    return row;
+  }
+
+  std::vector<std::string>
+  Recorder::column_names() const
+  {
+    std::vector<std::string> names;
+    for (const Column &column : columns())
+      if (column.is_present)
+        names.push_back(column.name);
+    for (const std::string &name : parts.totals.count_names())
+      if (has_count(name))
+        names.push_back(name);
+    for (const std::string &name : parts.water->column_names())
+      names.push_back(name);
+    return names;
+  }
+
   void
   Recorder::record()
   {
-    const MPI_Comm communicator = parts.grid.communicator();
-    parts.totals.bring_to_first_rank(communicator);
-    HistoryRow row;
-    row.time        = parts.clock.time;
-    row.penetration = parts.body.penetration();
-    row.step        = parts.clock.step;
-    row.time_step   = parts.clock.step_size;
-    row.contact_nodes =
-      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_touching,
-                          communicator);
-    row.sticking_nodes =
-      Utilities::MPI::sum(parts.nodal_motion.reactions().contact.n_sticking,
-                          communicator);
-    row.counts = parts.totals.counts();
-    for (const auto &column : parts.water->columns())
-      row.counts.push_back(column);
+    parts.totals.bring_to_first_rank(parts.grid.communicator());
     record_walls();
-    add_forces(row);
-    add_sums_over_points(row);
-    const std::vector<double> observed = observed_values();
+    find_forces();
+    find_sums_over_points();
+    const NamedNumbers  row         = find_row();
+    std::vector<double> observation = observed_values();
     if (parts.grid.is_first_rank())
-      records->append(row, observed);
+      {
+        std::vector<double> values;
+        for (const auto &column : row)
+          values.push_back(column.second);
+        history->append(values);
+        if (observed)
+          {
+            observation.insert(observation.begin(), parts.clock.time);
+            observed->append(observation);
+          }
+      }
     report_suction(row);
     print_record(row);
-    warn_of_lid(row);
+    warn_of_lid();
     for (const std::string &warning : parts.water->take_warnings())
       console->warning(warning);
     report_rest();
@@ -114,26 +212,19 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::add_forces(HistoryRow &row)
+  Recorder::find_forces()
   {
-    const double  interval = parts.clock.time - last_record;
-    double *const forces[] = {
-      &row.tip, &row.inner, &row.outer, &row.top, &row.lid, &row.ring};
-    for (unsigned int s = 0; s < n_surfaces; ++s)
+    const double interval = parts.clock.time - last_record;
+    pressure_of_cavity    = 0.;
+    force_on_soil         = Vector2();
+    if (interval > 0.)
       {
-        if (interval > 0.)
+        for (unsigned int s = 0; s < n_surfaces; ++s)
           recorded_forces[s] = impulse_on_body[s][vertical] / interval;
-        *forces[s] = recorded_forces[s];
-        row.total += *forces[s];
-      }
-    if (interval > 0.)
-      recorded_force_of_water = impulse_of_water / interval;
-    row.with_water = row.total + recorded_force_of_water;
-    if (interval > 0.)
-      {
-        row.cavity       = cavity_pressure(interval);
-        row.prescribed_r = impulse_on_soil[radial] / interval;
-        row.prescribed_z = impulse_on_soil[vertical] / interval;
+        recorded_force_of_water = impulse_of_water / interval;
+        pressure_of_cavity      = cavity_pressure(interval);
+        for (unsigned int d = 0; d < 2; ++d)
+          force_on_soil[d] = impulse_on_soil[d] / interval;
       }
     impulse_on_body  = {};
     impulse_of_water = 0.;
@@ -158,35 +249,28 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::add_sums_over_points(HistoryRow &row)
+  Recorder::find_sums_over_points()
   {
     const double travel     = parts.body.motion().travel();
     double       max_square = 0.;
+    n_in_body               = 0;
     parts.points.for_each_motion([&](const Point<2> &position,
                                      const Vector2  &velocity,
                                      const double,
                                      const unsigned int,
                                      const unsigned int) {
       max_square = std::max(max_square, velocity.norm_square());
-      row.points_in_body += parts.body.shape().contains(position, travel);
+      n_in_body += parts.body.shape().contains(position, travel);
     });
     const MPI_Comm communicator = parts.grid.communicator();
-    row.max_speed = Utilities::MPI::max(std::sqrt(max_square), communicator);
-    row.points_in_body = Utilities::MPI::sum(row.points_in_body, communicator);
-    max_in_body        = std::max(max_in_body, row.points_in_body);
-
-    const PointEnergies energies =
-      compute_point_energies(parts.points,
-                             parts.materials,
-                             parts.grid,
-                             parts.time_step.inertia_of_translation());
+    max_speed = Utilities::MPI::max(std::sqrt(max_square), communicator);
+    n_in_body = Utilities::MPI::sum(n_in_body, communicator);
+    known.max_in_body = std::max(known.max_in_body, n_in_body);
+    energies          = compute_point_energies(parts.points,
+                                      parts.materials,
+                                      parts.grid,
+                                      parts.time_step.inertia_of_translation());
     parts.energy.close(energies);
-    row.kinetic_energy = energies.kinetic;
-    row.external_work  = parts.energy.work_of_body;
-    row.energy         = parts.energy;
-    row.added_mass =
-      parts.grid.circumference() *
-      Utilities::MPI::sum(parts.nodal_motion.added_inertia(), communicator);
   }
 
   std::vector<double>
@@ -203,13 +287,13 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::warn_of_lid(const HistoryRow &row)
+  Recorder::warn_of_lid()
   {
-    if (at_lid || row.lid == 0.)
+    if (at_lid || recorded_forces[lid] == 0.)
       return;
     at_lid = true;
     console->warning("the soil plug touches the lid at a penetration of " +
-                     to_text(row.penetration, 6) +
+                     to_text(parts.body.penetration(), 6) +
                      " m: from here on the lid carries load, and the mesh "
                      "allows no more heave");
   }
@@ -227,11 +311,11 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::report_suction(const HistoryRow &row)
+  Recorder::report_suction(const NamedNumbers &row)
   {
-    const auto suction = number_named("suction_Pa", row.counts);
+    const auto suction = number_named("suction_Pa", row);
     // beneath a sealed lid, it has nothing to do with the weight
-    if (!suction || number_named("lid_growth_m3", row.counts))
+    if (!suction || number_named("lid_growth_m3", row))
       return;
     if (!has_reported_suction && *suction > 0. && last_suction <= 0.)
       {
@@ -241,7 +325,7 @@ namespace CaissonMPM
             "begins at a penetration of " + to_text(last_depth, 4) +
               " m, where the weight no longer suffices"}});
       }
-    last_depth   = row.penetration;
+    last_depth   = parts.body.penetration();
     last_suction = *suction;
   }
 
@@ -256,7 +340,7 @@ namespace CaissonMPM
   }
 
   void
-  Recorder::print_record(const HistoryRow &row)
+  Recorder::print_record(const NamedNumbers &row)
   {
     // where records are dense, not all of them: a line for each percent
     const double done     = parts.schedule.fraction_done();
@@ -264,43 +348,19 @@ namespace CaissonMPM
     if (!is_first && !parts.schedule.is_finished() &&
         done - fraction_printed < .01 * (1. - 1e-9))
       return;
-    fraction_printed = done;
-    RecordLine line;
-    line.time        = row.time;
-    line.has_body    = parts.body.shape().exists();
-    line.penetration = row.penetration;
-    if (const BodyShape &shape = parts.body.shape();
-        line.has_body && !shape.expands())
-      line.length = shape.top() - shape.bottom();
-    line.tip   = row.tip;
-    line.inner = row.inner;
-    line.outer = row.outer;
-    line.total = row.total;
-    if (scene_parts().water_on_body)
-      line.with_water = row.with_water;
-    line.kinetic_energy = row.kinetic_energy;
-    line.max_speed      = row.max_speed;
-    const auto column   = [&row](const std::string &name) {
-      return number_named(name, row.counts).value_or(0.);
-    };
-    line.has_suction = number_named("suction_Pa", row.counts).has_value();
-    line.suction     = column("suction_Pa");
-    if (const auto critical = number_named("critical_gradient", row.counts))
-      line.gradient_ratio =
-        *critical > 0. ?
-          std::max(column("exit_gradient_wall"), column("exit_gradient_axis")) /
-            *critical :
-          0.;
-    line.fraction_done = done;
-    line.eta_seconds =
+    fraction_printed       = done;
+    const BodyShape &shape = parts.body.shape();
+    const double     eta =
       is_first ? std::numeric_limits<double>::quiet_NaN() : seconds_left(done);
-    console->record(line);
+    const bool has_length = shape.exists() && !shape.expands();
+    console->record(
+      {row, done, eta, has_length ? shape.top() - shape.bottom() : 1.});
     // the text of the file has the whole scene, and takes as long as many steps
     constexpr double interval = 2.; // s of wall time
     const double     now      = seconds_running();
     if (parts.grid.is_first_rank() && now - last_progress >= interval)
       {
-        write_progress(done, line.eta_seconds);
+        write_progress(done, eta);
         last_progress = now;
       }
   }

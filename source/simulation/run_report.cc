@@ -16,7 +16,6 @@
 #include <cstdio>
 #include <ctime>
 #include <iomanip>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -60,7 +59,7 @@ namespace CaissonMPM
 
     /** The run after which this one goes on, and where it begins. */
     Json
-    about_installation(const RecordedParts &parts, const RunFacts &facts)
+    about_installation(const SimulationParts &parts, const RunFacts &facts)
     {
       if (facts.installation.empty())
         return Json::object();
@@ -113,7 +112,7 @@ namespace CaissonMPM
     }
 
     Json
-    about_size(const RecordedParts &parts, const RunFacts &facts)
+    about_size(const SimulationParts &parts, const RunFacts &facts)
     {
       const auto sum = [&parts](const unsigned long value) {
         return Utilities::MPI::sum(value, parts.grid.communicator());
@@ -127,7 +126,7 @@ namespace CaissonMPM
     }
 
     Json
-    counts(const RecordedParts &parts, const RunFacts &facts)
+    counts(const SimulationParts &parts, const RunFacts &facts)
     {
       Json members;
       for (const auto &[name, value] : parts.totals.counts())
@@ -137,7 +136,7 @@ namespace CaissonMPM
     }
 
     Json
-    about_speed(const RecordedParts &parts, const RunFacts &facts)
+    about_speed(const SimulationParts &parts, const RunFacts &facts)
     {
       return {{"point_steps", facts.point_steps},
               {"wall_time_s", facts.wall_time},
@@ -148,7 +147,7 @@ namespace CaissonMPM
     }
 
     Json
-    masses(const RecordedParts &parts)
+    masses(const SimulationParts &parts)
     {
       double body = 0., soil = 0.;
       for (const BodyPoint &p : parts.body_points)
@@ -163,7 +162,7 @@ namespace CaissonMPM
     }
 
     Json
-    about_step(const RecordedParts &parts)
+    about_step(const SimulationParts &parts)
     {
       const double scaling        = parts.soil.mass_scaling();
       const auto [least, largest] = parts.time_step.range_of_inertia();
@@ -236,7 +235,7 @@ namespace CaissonMPM
 
     /** What a review of the records needs of a body that is pushed in. */
     Json
-    about_tip(const RecordedParts &parts)
+    about_tip(const SimulationParts &parts)
     {
       const BodyShape &shape = parts.body.shape();
       if (shape.width_of_tip() == 0.)
@@ -254,7 +253,7 @@ namespace CaissonMPM
 
     /** The lengths and angles that pictures show. */
     Json
-    about_scene(const RecordedParts &parts)
+    about_scene(const SimulationParts &parts)
     {
       Json members = object_of(parts.body.shape().dimensions());
       if (members.empty())
@@ -325,9 +324,9 @@ namespace CaissonMPM
   } // namespace
 
   void
-  write_run_summary(const std::string   &path,
-                    const RecordedParts &parts,
-                    const RunFacts      &facts)
+  write_run_summary(const std::string     &path,
+                    const SimulationParts &parts,
+                    const RunFacts        &facts)
   {
     Json members = about_program(facts);
     members.update(about_installation(parts, facts));
@@ -348,9 +347,9 @@ namespace CaissonMPM
   }
 
   int
-  write_early_summary(const std::string   &path,
-                      const RecordedParts &parts,
-                      const RunFacts      &facts)
+  write_early_summary(const std::string     &path,
+                      const SimulationParts &parts,
+                      const RunFacts        &facts)
   {
     Json members = about_program(facts);
     if (!facts.failure.empty())
@@ -377,7 +376,7 @@ namespace CaissonMPM
   }
 
   void
-  print_run_report(Console &console, const RecordedParts &parts)
+  print_run_report(Console &console, const SimulationParts &parts)
   {
     warn_of_thrown_off(console, parts.totals);
     print_residual(console, parts.energy);

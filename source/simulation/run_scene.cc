@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/declared_entries.h>
-#include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/parameter_file.h>
 #include <caisson_mpm/base/text.h>

@@ -143,8 +143,8 @@ namespace CaissonMPM
                      " m is where the body is at the end of the run in "
                      "Installation/Directory. Set the depth at which this run "
                      "ends, or never and Time/End time.");
-    if (last_penetration && !last_time && body.motion().follows_loads())
-      throw BadInput("Rigid body/Motion is " + body.motion().name() +
+    if (last_penetration && !last_time && body.motion().traits.follows_loads)
+      throw BadInput("Rigid body/Motion is " + body.motion().name +
                      ": the body may rest before it has come to Time/End "
                      "penetration. Set Time/End time, too.");
     if (std::isfinite(find_end()) || (last_penetration && !times_are_known()))

@@ -8,14 +8,13 @@
 #include <caisson_mpm/restart/checkpoint.h>
 #include <caisson_mpm/simulation/physics_text.h>
 #include <caisson_mpm/simulation/simulation.h>
-#include <caisson_mpm/water/pore_water_factory.h>
+#include <caisson_mpm/water/pore_water.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace CaissonMPM
 {
@@ -23,27 +22,8 @@ namespace CaissonMPM
 
   Simulation::Simulation(const MPI_Comm communicator)
     : Section("/", Influence::none)
-    , grid(lines, communicator)
-    , points(grid)
-    , schedule(body, clock)
-    , parts{clock,
-            schedule,
-            soil,
-            body,
-            time_step,
-            generator,
-            boundary_conditions,
-            nodal_motion,
-            contact,
-            points,
-            body_points,
-            materials,
-            timer,
-            grid,
-            energy,
-            totals,
-            water}
-    , recorder(parts)
+    , SimulationParts(communicator)
+    , recorder(*this)
   {
     water_settings.parse_parameters_call_back.connect(
       [this]() { choose_water(); });
@@ -176,27 +156,27 @@ namespace CaissonMPM
   void
   Simulation::move_body()
   {
-    body.motion().set_load(body.submerged_weight() +
-                           body.applied_force(clock.time) +
-                           water->load_on_body());
+    body.motion().surroundings.load = body.submerged_weight() +
+                                      body.applied_force(clock.time) +
+                                      water->load_on_body();
     body.motion().advance(clock.step_size, force_on_body);
   }
 
   void
   Simulation::move_body_by_itself()
   {
-    if (!body.motion().needs_response())
+    if (!body.motion().traits.needs_response)
       move_body();
   }
 
   void
   Simulation::move_body_with_soil()
   {
-    if (!body.motion().needs_response())
+    if (!body.motion().traits.needs_response)
       return;
     auto sums = nodal_motion.respond(contact).along(body.shape().direction());
     Utilities::MPI::sum(sums, grid.communicator(), sums);
-    body.motion().set_response({sums[0] / clock.step_size, sums[1]});
+    body.motion().surroundings.response = {sums[0] / clock.step_size, sums[1]};
     move_body();
     nodal_motion.replace_body_velocity(body.mean_velocity(), contact);
   }

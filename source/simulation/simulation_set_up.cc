@@ -112,7 +112,7 @@ namespace CaissonMPM
     place_lines();
     nodal_motion.choose_flip_fraction(!soil.is_elastic_until_it_yields() ||
                                       strains_water ||
-                                      body.motion().follows_loads());
+                                      body.motion().traits.follows_loads);
     if (body.shape().expands() && soil.has_walls())
       throw BadInput(
         "the expanding cylinder takes its friction from Rigid body/"
@@ -270,7 +270,7 @@ namespace CaissonMPM
                          ", and makes more where they are needed");
     const double scaling = soil.mass_scaling();
     const auto   cells   = body.shape().cells_across_wall();
-    if (body.shape().exists() && !body.motion().follows_loads() &&
+    if (body.shape().exists() && !body.motion().traits.follows_loads &&
         !water->traits().follows_soil && scaling < usual_scaling &&
         !time_step.has_inertia_tolerance())
       result.push_back("Time/Mass scaling = " + to_text(usual_scaling) +
@@ -469,7 +469,7 @@ namespace CaissonMPM
     grid.repartition(costs);
     grid.move_to(body.motion().travel());
     points.unpack_after_repartition();
-    ++recorder.n_repartitions;
+    recorder.count_repartition();
     // the points forget what moved and yielded: not by their costs now
     least_imbalance = imbalance(of_all_cells);
     lost_steps      = 0.;
@@ -526,7 +526,7 @@ namespace CaissonMPM
     double slowest_wave = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < soil.n_materials(); ++i)
       slowest_wave = std::min(slowest_wave, wave_speed(i));
-    SceneReview(parts, mass_of_body(), slowest_wave, number_of_steps(), origins)
+    SceneReview(*this, mass_of_body(), slowest_wave, number_of_steps(), origins)
       .all();
     const double reach = body.shape().exists() && !body.shape().expands() ?
                            lines.total_travel() - body.shape().bottom() :

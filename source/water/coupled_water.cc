@@ -24,12 +24,6 @@ namespace CaissonMPM
         : water(water)
       {}
 
-      std::string
-      name() const override
-      {
-        return "pore pressure";
-      }
-
       bool
       is_active() const override
       {
@@ -333,7 +327,7 @@ namespace CaissonMPM
           c_v /
           (std::sqrt(modulus / scene.soil.inertial_density(i)) * diameter);
         const std::string group =
-          scene.body.motion().needs_response() ?
+          scene.body.motion().traits.needs_response ?
             to_text(diameter / c_v, 3) +
               " for each m/s of the velocity, which is a result" :
             to_text(scene.body.motion().usual_velocity() * diameter / c_v, 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/kernels/cell_map.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/water/flowing_water.h>
 
 #include <deal.II/base/mpi.h>

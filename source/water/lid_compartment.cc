@@ -43,16 +43,17 @@ namespace CaissonMPM
     const BodyMotion      &motion   = scene.body.motion();
     const SuctionSettings &settings = scene.settings.suction;
     const auto             control  = settings.control;
-    if (motion.follows_loads() && settings.is_required())
+    if (motion.traits.follows_loads && settings.is_required())
       throw BadInput(
-        "Rigid body/Motion is " + motion.name() +
+        "Rigid body/Motion is " + motion.name +
         ": the suction moves the body, and must be given. Set Water/Suction "
         "control = table or flow, or Rigid body/Motion = prescribed, for which "
         "the suction is a result.");
-    if (control == SuctionSettings::Control::flow && !motion.follows_loads())
+    if (control == SuctionSettings::Control::flow &&
+        !motion.traits.follows_loads)
       throw BadInput(
         "Water/Suction control is flow, but Rigid body/Motion is " +
-        motion.name() +
+        motion.name +
         ": the velocity of the body sets the flow. Set Motion = lowered or "
         "dropped, or Suction control = required or table.");
     if (!scene.grid.axisymmetric())
@@ -114,7 +115,7 @@ namespace CaissonMPM
     seepage_volume += dt * flow.scale * flow.out;
     // A body that is lowered rests before the pump starts.
     const BodyMotion &motion = scene.body.motion();
-    if (motion.follows_loads())
+    if (motion.traits.follows_loads)
       time_of_suction += motion.travel_at_rest() ? dt : 0.;
     else
       time_of_suction = time;

@@ -3,7 +3,6 @@
 #include <caisson_mpm/water/pore_water.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace CaissonMPM
 {
@@ -42,10 +41,10 @@ namespace CaissonMPM
     if (traits_.uses_permeability)
       return;
     scene.soil.name_unused_permeability(origins, why);
-    if (!scene.body.motion().follows_loads() && traits_.lid == nullptr)
+    if (!scene.body.motion().traits.follows_loads && traits_.lid == nullptr)
       origins.add_unused({"Rigid body/Submerged weight"},
                          why + ", and Rigid body/Motion is " +
-                           scene.body.motion().name());
+                           scene.body.motion().name);
   }
 
   std::vector<bool>
@@ -81,7 +80,7 @@ namespace CaissonMPM
                               std::vector<std::string> &warnings)
   {
     const BodyMotion &motion = scene.body.motion();
-    const bool is_open       = scene.has_caisson() && !motion.follows_loads() &&
+    const bool is_open = scene.has_caisson() && !motion.traits.follows_loads &&
                          motion.mean_velocity() < 0. && suction == 0.;
     if (holds_first(has_warned_of_open_lid, is_open))
       warnings.push_back(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/water/coupled_water.h>
-#include <caisson_mpm/water/pore_water_factory.h>
+#include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/steady_seepage.h>
 #include <caisson_mpm/water/undrained_water.h>
 

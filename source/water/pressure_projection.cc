@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/domain/cell_geometry.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/water/pressure_projection.h>
 
 #include <deal.II/base/mpi.h>

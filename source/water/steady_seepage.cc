@@ -25,12 +25,6 @@ namespace CaissonMPM
         : water(water)
       {}
 
-      std::string
-      name() const override
-      {
-        return "pore pressure";
-      }
-
       bool
       is_active() const override
       {
@@ -69,7 +63,7 @@ namespace CaissonMPM
     if (!lid)
       throw BadInput(
         "Water/Level is seepage, but Rigid body/Kind is " +
-        scene.body.shape().name() +
+        scene.body.shape().name +
         ": only a caisson has a lid with suction beneath it. Set Kind = "
         "caisson, or Level = drained, undrained or coupled.");
   }

@@ -255,29 +255,20 @@ test_timing()
 void
 test_console()
 {
-  RecordLine body;
-  body.has_body      = true;
-  body.penetration   = 1.23456789;
-  body.tip           = 1234567.89;
-  body.inner         = 12345.6789;
-  body.outer         = -1e-12;
-  body.total         = body.tip + body.inner + body.outer;
-  body.fraction_done = 0.2345678;
-  body.eta_seconds   = 83.4;
-  RecordLine model; // in N, Pa and mm
-  model.has_body       = true;
-  model.has_suction    = true;
-  model.gradient_ratio = 0.;
-  model.length         = .2;
-  model.penetration    = .0123456;
-  model.tip            = 12.3456;
-  model.total          = 999.9;
-  model.suction        = 456.7;
-  RecordLine column;
-  column.time           = 0.0123456789;
-  column.kinetic_energy = 1.23456789e-5;
-  column.max_speed      = 0.0123456789;
-  column.eta_seconds    = std::numeric_limits<double>::quiet_NaN();
+  constexpr double   nan    = std::numeric_limits<double>::quiet_NaN();
+  const NamedNumbers body   = {{"penetration_m", 1.23456789},
+                               {"tip_force_N", 1234567.89},
+                               {"inner_friction_N", 12345.6789},
+                               {"outer_friction_N", -1e-12},
+                               {"total_force_N", 1246913.5689}},
+                     model  = {{"penetration_m", .0123456}, // in N, Pa and mm
+                               {"tip_force_N", 12.3456},
+                               {"total_force_N", 999.9},
+                               {"suction_Pa", 456.7},
+                               {"critical_gradient", 0.}},
+                     column = {{"time_s", 0.0123456789},
+                               {"kinetic_energy_J", 1.23456789e-5},
+                               {"max_speed_m_s", 0.0123456789}};
 
   for (const auto verbosity : {Console::Verbosity::full,
                                Console::Verbosity::plain,
@@ -287,9 +278,9 @@ test_console()
       Console console(verbosity);
       console.header({{"version", "1.2.3"}, {"output", "results"}});
       console.summary({{"cells", "12"}, {"material points", "108"}});
-      console.record(body);
-      console.record(model);
-      console.record(column);
+      console.record({body, 0.2345678, 83.4});
+      console.record({model, 0., 0., .2});
+      console.record({column, 0., nan});
       console.message("checkpoint written");
       console.warning("two points left their \x1b[31mcell by more than a cell");
     }

@@ -117,8 +117,8 @@ struct Falling : EmptyParameters
     dealii::ParameterAcceptor::declare_all_parameters();
     dealii::ParameterAcceptor::parse_all_parameters();
     motion.start();
-    motion.set_mass(body_mass);
-    motion.set_load(weight);
+    motion.surroundings.mass = body_mass;
+    motion.surroundings.load = weight;
   }
 
   DroppedMotion motion;
@@ -151,7 +151,7 @@ check_momentum()
 {
   Falling          hit;
   constexpr double dt = 1e-3, force = -5e4;
-  hit.motion.set_load(0.);
+  hit.motion.surroundings.load = 0.;
   hit.motion.advance(dt, 0.);
   hit.motion.advance(dt, force);
   for (unsigned int i = 0; i < 1000; ++i)
@@ -173,10 +173,10 @@ check_spring(const char *what, const double soil)
   double         turn = 0., least = 0., most = 0., force = 0.;
   for (long i = 0; i < std::lround(n_swings * period / dt); ++i)
     {
-      const double before = swing.motion.velocity();
-      const double spring = -stiffness * swing.motion.travel(),
-                   last   = swing.motion.mean_velocity();
-      swing.motion.set_response({spring, soil});
+      const double before                = swing.motion.velocity();
+      const double spring                = -stiffness * swing.motion.travel(),
+                   last                  = swing.motion.mean_velocity();
+      swing.motion.surroundings.response = {spring, soil};
       swing.motion.advance(dt, force);
       // the soil is accelerated with the body
       force = spring - soil * (swing.motion.mean_velocity() - last) / dt;

@@ -4,7 +4,7 @@
 // adds.
 #include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/kernels/dispatch.h>
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -71,7 +71,7 @@ namespace
     for (int i = 0; i < 1000; ++i)
       body.advance(1e-4, -2. * 9810.);
     expect("at rest", std::abs(body.velocity()) < 1e-12);
-    expect("needs the force", body.needs_force());
+    expect("needs the force", body.traits.needs_force);
     expect("does not know its future", !body.time_of_travel(1.).has_value());
   }
 

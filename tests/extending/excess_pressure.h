@@ -31,12 +31,6 @@ namespace CaissonMPM
         "time t and pi.");
     }
 
-    std::string
-    name() const override
-    {
-      return "excess pore pressure";
-    }
-
     void
     check_parameters() const override
     {

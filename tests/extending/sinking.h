@@ -16,7 +16,7 @@ namespace CaissonMPM
   {
   public:
     Sinking()
-      : BodyMotion("sinking", "the body sinks by its own weight")
+      : BodyMotion("sinking", "the body sinks by its own weight", {false, true})
     {
       add_parameter(
         "Sinking mass",
@@ -32,12 +32,6 @@ namespace CaissonMPM
         "The submerged weight of a body that sinks by its own weight, on the "
         "whole circumference.",
         dealii::Patterns::Double(0.));
-    }
-
-    bool
-    needs_force() const override
-    {
-      return true;
     }
 
   protected:

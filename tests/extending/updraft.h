@@ -26,12 +26,6 @@ namespace CaissonMPM
                     dealii::Patterns::Double(0.));
     }
 
-    std::string
-    name() const override
-    {
-      return "updraft";
-    }
-
     bool
     is_active() const override
     {

@@ -4,41 +4,24 @@
 #ifndef caisson_mpm_base_console_h
 #define caisson_mpm_base_console_h
 
+#include <caisson_mpm/base/named_numbers.h>
+
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace CaissonMPM
 {
-  /** One line of progress. SI units; forces on the whole circumference. */
+  /** One line of progress: the present row of history.csv, of which a scene
+   * with a body shows the penetration, the forces and what the water has, and
+   * another one the time, the kinetic energy and the largest speed. */
   struct RecordLine
   {
-    double time = 0.;
-    /** Whether there is a body, i.e. penetration and forces; otherwise the
-     * time, the kinetic energy and the largest speed are shown. */
-    bool   has_body    = false;
-    double penetration = 0.;
-    double length      = 1.; // of the body, in m: of a small one lengths are mm
-    double tip         = 0.;
-    double inner       = 0.;
-    double outer       = 0.;
-    double total       = 0.;
-    /** With the excess pore pressure on the tip, where it follows from the
-     * motion of the soil. */
-    std::optional<double> with_water;
-    /** Where there is suction: Pa, and the exit gradient over the critical one.
-     */
-    bool                  has_suction = false;
-    double                suction     = 0.;
-    std::optional<double> gradient_ratio;
-    double                kinetic_energy = 0.;
-    double                max_speed      = 0.;
-    /** Of the whole run, from 0 to 1. */
-    double fraction_done = 0.;
-    /** Not finite where it is not known: then it is left out. */
-    double eta_seconds = 0.;
+    const NamedNumbers &row;
+    double              fraction_done; // of the whole run, from 0 to 1
+    double              eta_seconds;   // left out where it is not finite
+    double length = 1.; // of the body, in m: of a small one lengths are mm
   };
 
   /** What a warning is about, the most important first: the results, the input,

@@ -11,7 +11,6 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -85,6 +84,30 @@ namespace CaissonMPM
   private:
     Influence                influence;
     std::vector<std::string> entries_;
+  };
+
+  /** One of several objects among which an entry chooses by the name. */
+  class Alternative : public Section
+  {
+  public:
+    /** @p description says in a few words what the object is, for the text of
+     * the entry that chooses. */
+    Alternative(const std::string &section,
+                const Influence    influence,
+                const std::string &name,
+                const std::string &description)
+      : Section(section, influence)
+      , name(name)
+      , description(description)
+    {}
+
+    /** Throw BadInput where the entries of the chosen object contradict each
+     * other. */
+    virtual void
+    check_parameters() const
+    {}
+
+    const std::string name, description;
   };
 
   /** Name the entries of @p others that the chosen section does not have. */

@@ -13,6 +13,14 @@
 
 namespace CaissonMPM
 {
+  /** What a motion depends on. */
+  struct MotionTraits
+  {
+    bool follows_loads  = false; // so that the body can come to rest
+    bool needs_force    = false; // on the body, summed over the ranks
+    bool needs_response = false; // of the soil, which is known late in a step
+  };
+
   /**
    * Where the body is and how fast it moves. A motion is a state, which each
    * step advances: its future is not known to anyone else. Only a motion that
@@ -22,35 +30,38 @@ namespace CaissonMPM
    * line in the list of rigid_body.cc. It is the same on all ranks; not
    * collective.
    */
-  class BodyMotion : public Section
+  class BodyMotion : public Alternative
   {
   public:
-    /** @p name is the value of the entry Motion that chooses this motion, and
-     * @p description says in a few words what moves the body, for the text of
-     * Motion. */
-    BodyMotion(const std::string &name, const std::string &description)
-      : Section("/Rigid body", Influence::motion)
-      , name_(name)
-      , description_(description)
+    BodyMotion(const std::string  &name,
+               const std::string  &description,
+               const MotionTraits &traits = {})
+      : Alternative("/Rigid body", Influence::motion, name, description)
+      , traits(traits)
     {}
 
-    const std::string &
-    name() const
-    {
-      return name_;
-    }
+    const MotionTraits traits;
 
-    const std::string &
-    description() const
+    /** What the soil does to the body in a step, as far as that depends on the
+     * velocity of the body in this step alone. */
+    struct Response
     {
-      return description_;
-    }
+      double force = 0.; // if the body kept its velocity, as in advance(); N
+      double mass  = 0.; // of the soil that it would accelerate; kg
+    };
 
-    /** Throw BadInput where the entries of the chosen motion contradict each
-     * other. */
-    virtual void
-    check_parameters() const
-    {}
+    /** What the owner of the body sets before a step. */
+    struct Surroundings
+    {
+      /** What presses the body in the direction of a positive travel besides
+       * the soil: its submerged weight, and the suction. Units: N. */
+      double load = 0.;
+      /** Of the body. Units: kg. */
+      double   mass = 0.;
+      Response response; // where it is needed
+    };
+
+    Surroundings surroundings;
 
     /** How a motion begins: at rest where nothing has moved the body before, or
      * as another motion has left it. */
@@ -58,7 +69,7 @@ namespace CaissonMPM
     {
       double travel   = 0.; // m
       double velocity = 0.; // m/s
-      double load     = 0.; // that the soil bears, as in set_load(); N
+      double load     = 0.; // that the soil bears, as in Surroundings; N
     };
 
     /** Let the motion begin like this; before the future is asked for, and
@@ -85,14 +96,6 @@ namespace CaissonMPM
       mean_velocity_ = velocity_ = start_.velocity;
     }
 
-    /** Set what presses the body in the direction of a positive travel besides
-     * the soil: its submerged weight, and the suction. Units: N. */
-    void
-    set_load(const double load)
-    {
-      load_ = load;
-    }
-
     /** Return how fast the body moves when nothing hinders it. Units: m/s. */
     virtual double
     usual_velocity() const
@@ -114,57 +117,12 @@ namespace CaissonMPM
     slow_down(const double /*factor*/)
     {}
 
-    /** Set the mass of the body. Units: kg. */
-    void
-    set_mass(const double mass)
-    {
-      mass_ = mass;
-    }
-
-    /** What the soil does to the body in a step, as far as that depends on the
-     * velocity of the body in this step alone. */
-    struct Response
-    {
-      double force = 0.; // if the body kept its velocity, as in advance(); N
-      double mass  = 0.; // of the soil that it would accelerate; kg
-    };
-
-    /** Whether advance() needs the response of the soil, which is known late in
-     * a step. */
-    virtual bool
-    needs_response() const
-    {
-      return false;
-    }
-
-    /** Set the response of the soil in the coming step, where it is needed. */
-    void
-    set_response(const Response &response)
-    {
-      response_ = response;
-    }
-
-    /** Whether loads move the body, so that it can come to rest. */
-    virtual bool
-    follows_loads() const
-    {
-      return false;
-    }
-
     /** Return the travel at which a body that its loads move came to rest
      * first, and no value before that. Units: m. */
     virtual std::optional<double>
     travel_at_rest() const
     {
       return {};
-    }
-
-    /** Whether advance() needs the force on the body, which must be summed over
-     * the ranks. */
-    virtual bool
-    needs_force() const
-    {
-      return false;
     }
 
     /**
@@ -239,29 +197,10 @@ namespace CaissonMPM
     virtual void
     move(const double dt, const double force) = 0;
 
-    double
-    load() const
-    {
-      return load_;
-    }
-    double
-    mass() const
-    {
-      return mass_;
-    }
-    const Response &
-    response() const
-    {
-      return response_;
-    }
-
     double time_ = 0., travel_ = 0., velocity_ = 0., mean_velocity_ = 0.;
 
   private:
-    const std::string name_, description_;
-    double            load_ = 0., mass_ = 0.;
-    Response          response_;
-    InitialMotion     start_;
+    InitialMotion start_;
   };
 } // namespace CaissonMPM
 

@@ -33,35 +33,13 @@ namespace CaissonMPM
    * those at the start; a travel says how far the body has moved since. Nothing
    * here is in a loop of the time step, and nothing is collective.
    */
-  class BodyShape : public Section
+  class BodyShape : public Alternative
   {
   public:
     using Point = dealii::Point<2>;
 
-    /** @p name is the value of the entry Kind that chooses this shape, and
-     * @p description says in a few words what it is, for the text of Kind. */
     BodyShape(const std::string &name, const std::string &description)
-      : Section("/Rigid body")
-      , name_(name)
-      , description_(description)
-    {}
-
-    const std::string &
-    name() const
-    {
-      return name_;
-    }
-
-    const std::string &
-    description() const
-    {
-      return description_;
-    }
-
-    /** Throw BadInput where the entries of the chosen shape contradict each
-     * other. */
-    virtual void
-    check_parameters() const
+      : Alternative("/Rigid body", Influence::ground, name, description)
     {}
 
     /** Throw BadInput where an entry asks for something that only this shape
@@ -218,7 +196,7 @@ namespace CaissonMPM
     void
     enter_soil(const bool has_friction)
     {
-      soil_has_friction_ = has_friction;
+      soil_has_friction = has_friction;
     }
 
     /** Return the width of the cells at the body that the shape asks for; 0 if
@@ -324,16 +302,10 @@ namespace CaissonMPM
     void
     add_cells_across(unsigned int &n);
 
-    bool
-    soil_has_friction() const
-    {
-      return soil_has_friction_;
-    }
+    bool soil_has_friction = true;
 
   private:
-    const std::string name_, description_;
-    double            refinement         = 1.;
-    bool              soil_has_friction_ = true;
+    double refinement = 1.;
   };
 } // namespace CaissonMPM
 

@@ -300,8 +300,7 @@ namespace CaissonMPM
     double
     bevel() const
     {
-      const double cells =
-        shoulder_bevel.value_or(soil_has_friction() ? 1. : .5);
+      const double cells = shoulder_bevel.value_or(soil_has_friction ? 1. : .5);
       return cells_across_wall() > 1 ? cells * cell_width() : 0.;
     }
 

@@ -32,12 +32,6 @@ namespace CaissonMPM
     void
     start() override;
 
-    bool
-    needs_response() const override
-    {
-      return true;
-    }
-
     void
     register_totals(RunTotals &totals) override;
 

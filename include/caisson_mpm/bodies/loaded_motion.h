@@ -13,7 +13,11 @@ namespace CaissonMPM
   class LoadedMotion : public BodyMotion
   {
   public:
-    using BodyMotion::BodyMotion;
+    LoadedMotion(const std::string &name,
+                 const std::string &description,
+                 const bool         needs_response = false)
+      : BodyMotion(name, description, {true, true, needs_response})
+    {}
 
     void
     start() override
@@ -21,18 +25,6 @@ namespace CaissonMPM
       BodyMotion::start();
       resistance = RecentMean(beginning().load);
       rest       = RestDetector();
-    }
-
-    bool
-    needs_force() const override
-    {
-      return true;
-    }
-
-    bool
-    follows_loads() const override
-    {
-      return true;
     }
 
     std::optional<double>

@@ -7,8 +7,7 @@
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/domain/grid_lines.h>
 #include <caisson_mpm/domain/hanging_nodes.h>
-#include <caisson_mpm/kernels/cells.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/partitioner.h>
 

@@ -6,7 +6,7 @@
 #ifndef caisson_mpm_domain_cell_geometry_h
 #define caisson_mpm_domain_cell_geometry_h
 
-#include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/base/point.h>
 

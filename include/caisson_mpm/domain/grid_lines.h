@@ -26,7 +26,7 @@
 #include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/cell_tree.h>
-#include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/soil.h>
 
 #include <deal.II/base/point.h>

@@ -5,7 +5,7 @@
 #define caisson_mpm_domain_material_point_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/point_fields.h>
 #include <caisson_mpm/materials/soil.h>
 

@@ -9,10 +9,7 @@
 #include <caisson_mpm/domain/material_point.h>
 #include <caisson_mpm/domain/point_exchange.h>
 #include <caisson_mpm/domain/size_range.h>
-#include <caisson_mpm/kernels/blocks.h>
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/update_result.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/particles/particle_handler.h>
 

@@ -6,7 +6,7 @@
 #define caisson_mpm_domain_point_fields_h
 
 #include <caisson_mpm/domain/material_point.h>
-#include <caisson_mpm/kernels/blocks.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <string>
 #include <vector>

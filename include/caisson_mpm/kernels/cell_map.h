@@ -7,7 +7,7 @@
 #ifndef caisson_mpm_kernels_cell_map_h
 #define caisson_mpm_kernels_cell_map_h
 
-#include <caisson_mpm/kernels/cells.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/simd.h>
 
 namespace CaissonMPM

@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_kernels_kernel_table_h
 #define caisson_mpm_kernels_kernel_table_h
 
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {

@@ -8,8 +8,8 @@
 
 #include <caisson_mpm/kernels/for_each_block.h>
 #include <caisson_mpm/kernels/hypoplastic_intergranular.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/linear_elastic.h>
-#include <caisson_mpm/kernels/material.h>
 #include <caisson_mpm/kernels/mohr_coulomb.h>
 #include <caisson_mpm/kernels/mohr_coulomb_density.h>
 #include <caisson_mpm/kernels/ngi_adp.h>
@@ -74,9 +74,9 @@ namespace CaissonMPM
       set_law(Material &material, const typename Law::Parameters &parameters)
       {
         static_assert(sizeof(parameters) <= sizeof(material.parameters),
-                      "enlarge Material::parameters (material.h)");
+                      "enlarge Material::parameters (layout.h)");
         static_assert(Law::n_state <= n_state_variables,
-                      "enlarge n_state_variables (material.h)");
+                      "enlarge n_state_variables (layout.h)");
         material.law             = law_id<Law>;
         material.volume_in_shear = Law::volume_in_shear(parameters);
         material.is_frictionless =

@@ -20,7 +20,7 @@
 #ifndef caisson_mpm_kernels_material_law_h
 #define caisson_mpm_kernels_material_law_h
 
-#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/stress_state.h>
 
 namespace CaissonMPM

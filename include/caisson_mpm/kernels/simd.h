@@ -204,14 +204,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator>(const Lanes a, const Lanes b)
         {
-#ifdef CAISSON_AVX512DQ
-          if constexpr (n == 8)
-            return {_mm512_cmp_pd_mask(__m512d(a.values),
-                                       __m512d(b.values),
-                                       _CMP_GT_OS)};
-          else
-#endif
-            return {a.values > b.values};
+          return b < a;
         }
         [[gnu::always_inline]] friend inline Mask
         operator<=(const Lanes a, const Lanes b)
@@ -228,14 +221,7 @@ namespace CaissonMPM
         [[gnu::always_inline]] friend inline Mask
         operator>=(const Lanes a, const Lanes b)
         {
-#ifdef CAISSON_AVX512DQ
-          if constexpr (n == 8)
-            return {_mm512_cmp_pd_mask(__m512d(a.values),
-                                       __m512d(b.values),
-                                       _CMP_GE_OS)};
-          else
-#endif
-            return {a.values >= b.values};
+          return b <= a;
         }
         [[gnu::always_inline]] friend inline Lanes
         select(const Mask m, const Lanes a, const Lanes b)

@@ -7,7 +7,7 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/soil_layer.h>
 
 #include <memory>

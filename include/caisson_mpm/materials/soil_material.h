@@ -5,7 +5,7 @@
 #define caisson_mpm_materials_soil_material_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/umat_settings.h>
 
 #include <array>

@@ -9,7 +9,7 @@
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <array>
 #include <string>

@@ -5,8 +5,7 @@
 #define caisson_mpm_operators_consistent_mass_h
 
 #include <caisson_mpm/domain/hanging_nodes.h>
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_data.h>
 
 #include <functional>

@@ -12,7 +12,7 @@
 #define caisson_mpm_operators_contact_h
 
 #include <caisson_mpm/base/conventions.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/contact_corners.h>
 
 #include <array>

@@ -26,8 +26,7 @@
 #define caisson_mpm_operators_contact_corners_h
 
 #include <caisson_mpm/bodies/body_surface.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/kernels/views.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/contact_face.h>
 #include <caisson_mpm/operators/nodal_forces.h>
 

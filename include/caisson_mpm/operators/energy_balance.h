@@ -12,7 +12,7 @@
 #define caisson_mpm_operators_energy_balance_h
 
 #include <caisson_mpm/base/run_totals.h>
-#include <caisson_mpm/kernels/material.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_work.h>
 
 #include <string>

@@ -7,7 +7,7 @@
 
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/kernels/settings.h>
+#include <caisson_mpm/kernels/layout.h>
 
 #include <optional>
 #include <string>

@@ -17,7 +17,7 @@
 #ifndef caisson_mpm_operators_minimum_nodal_mass_h
 #define caisson_mpm_operators_minimum_nodal_mass_h
 
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_momentum.h>
 
 #include <vector>

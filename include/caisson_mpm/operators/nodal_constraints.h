@@ -5,7 +5,7 @@
 #ifndef caisson_mpm_operators_nodal_constraints_h
 #define caisson_mpm_operators_nodal_constraints_h
 
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
 

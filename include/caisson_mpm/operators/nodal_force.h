@@ -8,10 +8,8 @@
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 
-#include <string>
 #include <vector>
 
 namespace CaissonMPM
@@ -38,10 +36,6 @@ namespace CaissonMPM
   {
   public:
     virtual ~NodalForce() = default;
-
-    /** Return the name for messages. */
-    virtual std::string
-    name() const = 0;
 
     /** Throws BadInput for entries that cannot be used. */
     virtual void

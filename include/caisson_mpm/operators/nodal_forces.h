@@ -4,7 +4,7 @@
 #ifndef caisson_mpm_operators_nodal_forces_h
 #define caisson_mpm_operators_nodal_forces_h
 
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
 #include <memory>

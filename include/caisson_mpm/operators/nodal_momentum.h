@@ -10,8 +10,7 @@
 #ifndef caisson_mpm_operators_nodal_momentum_h
 #define caisson_mpm_operators_nodal_momentum_h
 
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_constraints.h>
 #include <caisson_mpm/operators/nodal_data.h>
 #include <caisson_mpm/operators/nodal_forces.h>

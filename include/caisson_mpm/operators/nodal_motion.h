@@ -5,10 +5,7 @@
 #ifndef caisson_mpm_operators_nodal_motion_h
 #define caisson_mpm_operators_nodal_motion_h
 
-#include <caisson_mpm/kernels/cell_moments.h>
-#include <caisson_mpm/kernels/material.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_work.h>
 #include <caisson_mpm/operators/point_transfer.h>
 

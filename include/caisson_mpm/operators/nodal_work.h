@@ -10,7 +10,7 @@
 #ifndef caisson_mpm_operators_nodal_work_h
 #define caisson_mpm_operators_nodal_work_h
 
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/minimum_nodal_mass.h>
 
 namespace CaissonMPM

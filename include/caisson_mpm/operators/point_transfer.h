@@ -19,7 +19,7 @@
 #ifndef caisson_mpm_operators_point_transfer_h
 #define caisson_mpm_operators_point_transfer_h
 
-#include <caisson_mpm/kernels/step_context.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/method_settings.h>
 #include <caisson_mpm/operators/nodal_momentum.h>
 

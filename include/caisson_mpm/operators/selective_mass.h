@@ -26,8 +26,7 @@
 #define caisson_mpm_operators_selective_mass_h
 
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/nodal_sums.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_data.h>
 
 #include <array>

@@ -13,9 +13,8 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/operators/nodal_force.h>
-
 
 namespace CaissonMPM
 {
@@ -27,26 +26,49 @@ namespace CaissonMPM
   class SurroundingPressure : public NodalForce, public Section
   {
   public:
-    SurroundingPressure();
-
-    std::string
-    name() const override;
+    SurroundingPressure()
+      : Section("/Loads", Influence::motion)
+    {
+      add_parameter(
+        "Surrounding pressure",
+        text,
+        "Pa",
+        "Pressure on all free surfaces of the soil, positive in compression, "
+        "as an expression in the time t.");
+    }
 
     void
-    check_parameters() const override;
+    check_parameters() const override
+    {
+      parse().at_time(0.);
+    }
 
     void
-    initialize(const double mass_scaling) override;
+    initialize(const double /*mass_scaling*/) override
+    {
+      pressure = parse();
+    }
 
     bool
-    is_active() const override;
+    is_active() const override
+    {
+      return !pressure.is_zero();
+    }
 
   private:
     void
-    add(const ForceContext &context, Kernels::NodalVector *force) override;
+    add(const ForceContext &context, Kernels::NodalVector *force) override
+    {
+      // The pressure outside acts on the soil as a negative one inside would.
+      of_nodes.assign(context.grid.n_nodes(), -pressure.at_time(context.time));
+      context.kernels.pressure_force(context.step, of_nodes.data(), force);
+    }
 
     Expression
-    parse() const;
+    parse() const
+    {
+      return Expression(text, "Loads/Surrounding pressure = " + text);
+    }
 
     std::string         text = "0";
     Expression          pressure;

@@ -34,7 +34,6 @@
 #include <caisson_mpm/output/vtu_file.h>
 #include <caisson_mpm/water/pore_water.h>
 
-#include <string>
 #include <vector>
 
 namespace CaissonMPM

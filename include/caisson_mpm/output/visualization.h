@@ -9,6 +9,7 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/water/pore_water.h>
 
 #include <array>
 #include <string>

@@ -7,14 +7,14 @@
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/output_directory.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/wall_forces.h>
 #include <caisson_mpm/output/observations.h>
-#include <caisson_mpm/output/records.h>
+#include <caisson_mpm/output/row_file.h>
 #include <caisson_mpm/output/visualization.h>
 #include <caisson_mpm/output/wall_file.h>
-#include <caisson_mpm/simulation/recorded_parts.h>
 #include <caisson_mpm/simulation/run_report.h>
+#include <caisson_mpm/simulation/simulation_parts.h>
 
 #include <chrono>
 #include <functional>
@@ -34,7 +34,7 @@ namespace CaissonMPM
   class Recorder : public Section
   {
   public:
-    explicit Recorder(const RecordedParts &parts);
+    explicit Recorder(SimulationParts &parts);
 
     /** Throw BadInput for observations that cannot be understood. */
     void
@@ -168,15 +168,34 @@ namespace CaissonMPM
       earlier_warnings = warnings;
     }
 
-    /** How often the parts of the ranks have been changed. */
-    unsigned int n_repartitions = 0;
+    /** Count that the parts of the ranks have been changed. */
+    void
+    count_repartition()
+    {
+      ++known.n_repartitions;
+    }
 
   private:
-    /** The names of the columns that not every scene has. */
+    /** A column of history.csv: its name with the unit, whether the scene has
+     * it, and the value of the present record. */
+    struct Column
+    {
+      std::string             name;
+      bool                    is_present;
+      std::function<double()> value;
+    };
+
+    /** All columns but those of RunTotals and of the pore water. */
+    std::vector<Column>
+    columns() const;
+    /** Whether the scene has a number of RunTotals. */
+    bool
+    has_count(const std::string &name) const;
     std::vector<std::string>
-    count_names() const;
-    SceneParts
-    scene_parts() const;
+    column_names() const;
+    /** The row of the present record. Collective. */
+    NamedNumbers
+    find_row() const;
     Console::Verbosity
     verbosity() const;
     void
@@ -194,8 +213,9 @@ namespace CaissonMPM
     /** Warn where the files are not as the checkpoint knows them. */
     void
     warn_of_changed_files();
+    /** Find the mean forces since the last record. */
     void
-    add_forces(HistoryRow &row);
+    find_forces();
     /** Whether there is a wall.csv. */
     bool
     has_walls() const;
@@ -206,20 +226,22 @@ namespace CaissonMPM
     /** The pressure on a cylinder that expands. Units: Pa. */
     double
     cavity_pressure(const double interval) const;
+    /** Find the sums over the points, and close the balance of energy.
+     * Collective. */
     void
-    add_sums_over_points(HistoryRow &row);
+    find_sums_over_points();
     std::vector<double>
     observed_values() const;
     void
-    warn_of_lid(const HistoryRow &row);
+    warn_of_lid();
     /** Say once where a body that its loads move came to rest. */
     void
     report_rest();
     /** Say once where the weight no longer suffices. */
     void
-    report_suction(const HistoryRow &row);
+    report_suction(const NamedNumbers &row);
     void
-    print_record(const HistoryRow &row);
+    print_record(const NamedNumbers &row);
     /** Write run.json of a run that has not ended; not collective. */
     void
     write_progress(const double fraction_done, const double eta_seconds) const;
@@ -235,7 +257,7 @@ namespace CaissonMPM
     RunFacts
     own_facts(const std::string &status) const;
 
-    const RecordedParts &parts;
+    SimulationParts &parts;
 
     Observations observations;
 
@@ -245,21 +267,20 @@ namespace CaissonMPM
       plain,
       silent
     };
-    std::string title                = "a scene";
     std::string directory            = "results";
     Terminal    terminal             = Terminal::full;
     bool        walls_at_each_record = false;
 
     std::unique_ptr<OutputDirectory> locked_directory;
     std::unique_ptr<Console>         console;
-    std::unique_ptr<Records>         records;
-    std::unique_ptr<Visualization>   visualization;
-    std::unique_ptr<WallFile>        wall_file;
-    std::string                      scene, command, fingerprint, installation;
-    std::vector<std::string>         assumed; // entries
-    std::vector<std::string>         earlier_warnings;
-    std::function<double()>          steps_left;
-    const Kernels::KernelTable      *kernels = nullptr;
+    // history.csv and, where there are observations, observations.csv
+    std::unique_ptr<RowFile>              history, observed;
+    std::unique_ptr<Visualization>        visualization;
+    std::unique_ptr<WallFile>             wall_file;
+    RunFacts                              known; // since the start
+    std::vector<std::string>              earlier_warnings;
+    std::function<double()>               steps_left;
+    unsigned int                          n_lanes = 0; // of the kernels
     std::chrono::steady_clock::time_point start_time;
 
     // since the last record
@@ -272,9 +293,14 @@ namespace CaissonMPM
     WallForces    walls;
     bool          wants_walls = false;
 
-    // N, positive upward
+    // of the present record, SI units, forces on the body positive upward
     std::array<double, n_surfaces> recorded_forces         = {};
     double                         recorded_force_of_water = 0.;
+    double                         pressure_of_cavity      = 0.;
+    Vector2                        force_on_soil = Vector2(); // prescribed one
+    double                         max_speed     = 0.;        // of points
+    unsigned int                   n_in_body     = 0;         // points
+    PointEnergies                  energies;
 
     double point_steps = 0.; // of this rank
     double wall_time   = 0.; // at the last checkpoint, s
@@ -295,9 +321,8 @@ namespace CaissonMPM
     };
     Files files;
 
-    unsigned int max_in_body       = 0;
-    bool         at_lid            = false;
-    bool         has_reported_rest = false;
+    bool at_lid            = false;
+    bool has_reported_rest = false;
     // of the last record, if it had a lid: m, Pa
     double last_depth           = 0.;
     double last_suction         = 1.;

@@ -6,9 +6,8 @@
 
 #include <caisson_mpm/base/console.h>
 #include <caisson_mpm/base/named_numbers.h>
-#include <caisson_mpm/simulation/recorded_parts.h>
+#include <caisson_mpm/simulation/simulation_parts.h>
 
-#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -20,7 +19,7 @@ namespace CaissonMPM
     std::string          failure; // why the run could not go on, or empty
     std::string          scene_file;
     std::string          command; // words behind the name of the program
-    std::string          title;
+    std::string          title = "a scene";
     std::string          fingerprint; // of all parameters that are not defaults
     std::string          installation; // directory of the run before, or empty
     std::string          kernels;
@@ -38,22 +37,22 @@ namespace CaissonMPM
    * counts must have been brought to the first rank. Throws RunFailure where
    * the file cannot be written. Collective. */
   void
-  write_run_summary(const std::string   &path,
-                    const RecordedParts &parts,
-                    const RunFacts      &facts);
+  write_run_summary(const std::string     &path,
+                    const SimulationParts &parts,
+                    const RunFacts        &facts);
 
   /** Write run.json of a run that has not ended, or has failed on this rank,
    * with what is known without the other ranks. Returns 0 or an errno. Not
    * collective. */
   int
-  write_early_summary(const std::string   &path,
-                      const RecordedParts &parts,
-                      const RunFacts      &facts);
+  write_early_summary(const std::string     &path,
+                      const SimulationParts &parts,
+                      const RunFacts        &facts);
 
   /** Print the energy residual, and warn of what it and the counts say against
    * the run. Not collective. */
   void
-  print_run_report(Console &console, const RecordedParts &parts);
+  print_run_report(Console &console, const SimulationParts &parts);
 } // namespace CaissonMPM
 
 #endif

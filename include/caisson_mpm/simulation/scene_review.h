@@ -6,7 +6,7 @@
 
 #include <caisson_mpm/base/declared_entries.h>
 #include <caisson_mpm/base/parameter_origins.h>
-#include <caisson_mpm/simulation/recorded_parts.h>
+#include <caisson_mpm/simulation/simulation_parts.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <optional>
@@ -26,11 +26,11 @@ namespace CaissonMPM
     /** The warnings go to @p origins. The mass of the body is that of its cells
      * (kg), the speed of waves the least one of all layers (m/s), and the
      * number of steps infinite where the end is not known. */
-    SceneReview(const RecordedParts &parts,
-                const double         body_mass,
-                const double         wave_speed,
-                const double         n_steps,
-                ParameterOrigins    &origins)
+    SceneReview(const SimulationParts &parts,
+                const double           body_mass,
+                const double           wave_speed,
+                const double           n_steps,
+                ParameterOrigins      &origins)
       : parts(parts)
       , body_mass(body_mass)
       , wave_speed(wave_speed)
@@ -131,9 +131,9 @@ namespace CaissonMPM
           const std::string &unit,
           const std::string &text);
 
-    const RecordedParts &parts;
-    const double         body_mass, wave_speed, n_steps;
-    ParameterOrigins    &origins;
+    const SimulationParts &parts;
+    const double           body_mass, wave_speed, n_steps;
+    ParameterOrigins      &origins;
   };
 } // namespace CaissonMPM
 

@@ -7,7 +7,6 @@
 #include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/base/section.h>
 #include <caisson_mpm/bodies/rigid_body.h>
-#include <caisson_mpm/simulation/clock.h>
 
 #include <optional>
 #include <string>
@@ -16,6 +15,14 @@
 
 namespace CaissonMPM
 {
+  /** Owned by the simulation, which alone sets it; the same on all ranks. */
+  struct Clock
+  {
+    double        time      = 0.; // s
+    double        step_size = 0.; // of the last step, s
+    unsigned long step      = 0;  // number of steps so far
+  };
+
   /**
    * The events of a run, at times or at penetrations of the body.
    *

@@ -6,34 +6,12 @@
 
 #include <caisson_mpm/base/command_line.h>
 #include <caisson_mpm/base/exceptions.h>
-#include <caisson_mpm/base/parameter_origins.h>
-#include <caisson_mpm/base/run_totals.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/base/stop_request.h>
-#include <caisson_mpm/base/timing.h>
-#include <caisson_mpm/bodies/rigid_body.h>
-#include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/domain/body_points.h>
-#include <caisson_mpm/domain/material_points.h>
-#include <caisson_mpm/domain/point_generator.h>
-#include <caisson_mpm/kernels/forward.h>
-#include <caisson_mpm/kernels/material.h>
-#include <caisson_mpm/materials/soil.h>
-#include <caisson_mpm/operators/boundary_conditions.h>
-#include <caisson_mpm/operators/contact.h>
-#include <caisson_mpm/operators/energy_balance.h>
-#include <caisson_mpm/operators/nodal_forces.h>
-#include <caisson_mpm/operators/nodal_motion.h>
-#include <caisson_mpm/operators/time_step.h>
-#include <caisson_mpm/simulation/clock.h>
-#include <caisson_mpm/simulation/installation.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/simulation/run_cost.h>
-#include <caisson_mpm/simulation/schedule.h>
-#include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/simulation/simulation_parts.h>
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,7 +29,7 @@ namespace CaissonMPM
    * Each rank works on the cells that it owns and the points in them. Sums over
    * nodes, points and steps are of one rank; see RunTotals.
    */
-  class Simulation : public Section
+  class Simulation : public Section, private SimulationParts
   {
   public:
     explicit Simulation(const MPI_Comm communicator);
@@ -232,7 +210,7 @@ namespace CaissonMPM
     bool
     needs_force_on_body() const
     {
-      return body.motion().needs_force() || water->traits().lid != nullptr;
+      return body.motion().traits.needs_force || water->traits().lid != nullptr;
     }
     /** Whether the caches are to be rebuilt before the next step. */
     bool
@@ -264,32 +242,11 @@ namespace CaissonMPM
     ExitStatus
     finish();
 
-    // in the order of their sections in a .prm file
-    Installation       installation;
-    GridLines          lines;
-    BackgroundGrid     grid;
-    Soil               soil;
-    RigidBody          body;
-    PointGenerator     generator;
-    BoundaryConditions boundary_conditions;
-    WaterSettings      water_settings;
-    NodalForces        nodal_forces;
-    NodalMotion        nodal_motion;
-    TimeStep           time_step;
-    StopRequest        stop_request;
-
     // state
-    bool                           is_restart = false;
-    bool                           overwrites = false, is_stopping = false;
-    Clock                          clock;
-    MaterialPoints                 points;
-    std::vector<BodyPoint>         body_points;
-    Contact                        contact;
-    std::vector<Kernels::Material> materials;
-    const Kernels::KernelTable    *kernels = nullptr;
-    EnergyBalance                  energy;
-    unsigned long                  n_limited = 0;  // velocities of points
-    double                         inflow    = 0.; // of soil into the body, m3
+    bool is_restart = false, overwrites = false, is_stopping = false;
+    const Kernels::KernelTable *kernels   = nullptr;
+    unsigned long               n_limited = 0;  // velocities of points
+    double                      inflow    = 0.; // of soil into the body, m3
     double since_adaptation = 0.; // of points, in steps of reference
     // in the last step, or that before the last checkpoint; N
     double    force_on_body = 0.;
@@ -301,13 +258,7 @@ namespace CaissonMPM
     std::string           instruction_set     = "auto";
     std::optional<double> checkpoint_interval = 600.;
 
-    RunTotals totals;
-    // of the level that the settings choose; after the totals, where it is
-    std::unique_ptr<PoreWater> water;
-    SectionTimer               timer;
-    Schedule                   schedule;
-    const RecordedParts        parts;
-    Recorder                   recorder;
+    Recorder recorder;
 
     // of the ranks, largest over mean work, after the last cut into parts; and
     // the steps that could have been made since in the time that ranks waited

@@ -41,7 +41,7 @@ namespace CaissonMPM
     bool
     has_caisson() const
     {
-      return body.shape().name() == "caisson";
+      return body.shape().name == "caisson";
     }
 
     /** Whether there is suction beneath a lid where the level has none of
@@ -285,6 +285,9 @@ namespace CaissonMPM
   /** Return whether a condition holds for the first time, and remember it. */
   bool
   holds_first(bool &has_held, const bool holds);
+  /** Return the model that Water/Level chooses. */
+  std::unique_ptr<PoreWater>
+  make_pore_water(const WaterScene &scene);
 } // namespace CaissonMPM
 
 #endif

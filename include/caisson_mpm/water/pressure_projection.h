@@ -15,8 +15,7 @@
 #define caisson_mpm_water_pressure_projection_h
 
 #include <caisson_mpm/base/run_totals.h>
-#include <caisson_mpm/kernels/cells.h>
-#include <caisson_mpm/kernels/forward.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/water/cell_integrals.h>
 #include <caisson_mpm/water/cell_pressure_solver.h>
 

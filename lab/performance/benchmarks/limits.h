@@ -5,8 +5,8 @@
 #ifndef caisson_mpm_benchmarks_limits_h
 #define caisson_mpm_benchmarks_limits_h
 
-#include <caisson_mpm/kernels/blocks.h>
 #include <caisson_mpm/kernels/instruction_set.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {
