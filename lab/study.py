@@ -9,6 +9,8 @@ tension, surface and speed. Beside the keys that all studies have, one of them h
     variants = ["name"]     # each run with each of these choices, "" being none;
                             # a run may have its own list
     meshes = {"name" = {"Section/Entry" = value}}   # ... and on each mesh
+    quick = true            # taken with --quick; or a table of the keys that
+                            # replace those of the study then
 
 A run has the keys
 
@@ -29,24 +31,34 @@ A kind may make the runs of a study itself, as those of users do; runs, variants
 meshes then are no keys of it.
 """
 import itertools
-from dataclasses import replace
+import re
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from caisson.runner import Entries
 from caisson.runs import StudyRun
-from caisson.study import Options, Reader, StudyError
+from caisson import study
+from caisson.study import Reader, StudyError
 
 
 LISTED = {"runs", "variants", "meshes"}
+
+
+@dataclass(frozen=True)
+class Options(study.Options):
+    """What is asked of the command line, too."""
+
+    only: str = ""  # regular expression for id and title
+    quick: bool = False
 
 
 class LabReader(Reader):
     """Makes studies of a file of the laboratory."""
 
     file_keys = Reader.file_keys | {"variants"}
-    study_keys = Reader.study_keys | LISTED
+    study_keys = Reader.study_keys | LISTED | {"quick"}
     shared_keys = Reader.shared_keys | {"h", "until", "stop_after"}
     run_keys = set("name scene set seconds variants".split())
 
@@ -54,8 +66,23 @@ class LabReader(Reader):
         """module: of the kind."""
         make_runs = getattr(module, "make_runs", None)
         super().__init__(file, options, module.STUDY_KEYS, make_runs)
+        self.asked = options
         self.variants: dict[str, Entries] = {"": {}, "default": {}}
         self.variants |= self.content.get("variants", {})
+
+    def is_asked_for(self, table: dict[str, Any]) -> bool:
+        """Return whether the study fits the options."""
+        if self.asked.quick and not table.get("quick", False):
+            return False
+        texts = (table.get("id", ""), table.get("title", ""))
+        return any(re.search(self.asked.only, str(text)) for text in texts)
+
+    def tables(self) -> list[dict[str, Any]]:
+        """Return the keys of each study that is asked for."""
+        found = [table for table in super().tables() if self.is_asked_for(table)]
+        if not self.asked.quick:
+            return found
+        return [t | t["quick"] if isinstance(t["quick"], dict) else t for t in found]
 
     def runs_of(self, study: dict[str, Any], entries: Entries) -> list[StudyRun]:
         """Return the runs of a study: those that it lists, with each variant and on

@@ -7,15 +7,16 @@ the entries and the ranks are the same.
 """
 import argparse
 import functools
+import re
 import time
 from pathlib import Path
 from types import ModuleType
 
 from caisson import study_command
 from caisson.paths import SCENES, short
-from caisson.study import Options, Reader, StudyError
+from caisson.study import StudyError
 from lab.paths import LAB
-from lab.study import LabReader
+from lab.study import LabReader, Options
 
 KINDS = study_command.KINDS | {
     "error bar": "caisson.error_bars.bar_study",
@@ -50,23 +51,39 @@ def files() -> list[Path]:
     return sorted([*SCENES.rglob("*.toml"), *LAB.rglob("*.toml")])
 
 
+def pattern(text: str) -> str:
+    """Return a regular expression of the command line."""
+    try:
+        re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: {error}") from error
+    return text
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of all studies."""
     study = STUDIES.get(parser.prog.split()[-1])
     study_command.add_arguments(parser, study)
+    text = "studies whose id or title fits"
+    parser.add_argument("--only", type=pattern, default="", metavar="REGEX", help=text)
+    text = "those of some seconds only"
+    parser.add_argument("--quick", action="store_true", help=text)
     if study is not None:
         parser.epilog = f"The study is {short(study)}."
 
 
-def reader_of(file: Path, options: Options, module: ModuleType) -> Reader:
+def reader_of(file: Path, options: Options, module: ModuleType) -> LabReader:
     """Return what reads a study of a user or of the laboratory."""
     return LabReader(file, options, module)
 
 
 def main(arguments: argparse.Namespace) -> int:
     """Run and evaluate."""
-    module, options, studies = study_command.studies_of(arguments, KINDS, reader_of)
-    if not studies:
+    module = study_command.module_of(arguments.file, KINDS)
+    made = vars(study_command.options_of(arguments, module))
+    options = Options(**made, only=arguments.only, quick=arguments.quick)
+    studies = reader_of(arguments.file, options, module).studies()
+    if study_command.is_list(arguments, studies):
         return 0
     options.results.mkdir(parents=True, exist_ok=True)
     if hasattr(module, "measure"):  # its runs take turns

@@ -79,16 +79,14 @@ def title_of(title: str, phases: Sequence[Phase]) -> str:
     return f"{title}: {'; '.join(phase.text for phase in phases)}"
 
 
-def undrained_layers(entries: Mapping[str, str]) -> list[str]:
-    """Return the numbers of the layers whose strength is undrained."""
-    found = []
+def undrained_layer(entries: Mapping[str, str]) -> int:
+    """Return the number of the first layer whose strength is undrained, 0 of none."""
     for i in range(1, int(entries.get("Soil/Number of layers", "1")) + 1):
-        layer = f"Soil/Layer {i}"
-        law = entries.get(f"{layer}/Law", "")
-        friction = entries.get(f"{layer}/Friction angle", "")
+        law = entries.get(f"Soil/Layer {i}/Law", "")
+        friction = entries.get(f"Soil/Layer {i}/Friction angle", "")
         if law == "NGI-ADP" or (law == "Mohr-Coulomb" and friction == "0"):
-            found.append(str(i))
-    return found
+            return i
+    return 0
 
 
 def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
@@ -116,9 +114,9 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
             f"its sealed lid needs water that flows, and Water/Level is {level}; set"
             " Level = coupled, and a permeability of each layer"
         )
-    if phase.word == DRAINED and (layers := undrained_layers(entries)):
+    if phase.word == DRAINED and (layer := undrained_layer(entries)):
         return (
-            f"the strength of layer {layers[0]} is undrained, and so is each pull; give"
+            f"the strength of layer {layer} is undrained, and so is each pull; give"
             f" it a law with a drained friction angle, or write {RETRIEVAL}"
         )
     return ""

@@ -11,8 +11,6 @@ itself if it holds none (its id is then its name):
     set = {"Section/Entry" = value}   # entries of all its runs
     seconds = 2             # about how long a run takes; the longest start first.
                             # Without it the program is asked
-    quick = true            # taken with --quick; or a table of the keys that
-                            # replace those of the study then
     ranks = 4               # default: what is fastest for all runs; binding = "core"
                             # or "none" (default)
     reference = {"Section/Entry" = value}   # one more run, called reference, of the
@@ -74,10 +72,8 @@ class Study:
 
 @dataclass(frozen=True)
 class Options:
-    """What is asked of the command line."""
+    """What makes the runs, and where."""
 
-    only: str = ""  # regular expression for id and title
-    quick: bool = False
     program: Path = PROGRAM
     results: Path = Path()
 
@@ -86,7 +82,7 @@ class Reader:
     """Makes studies of a file."""
 
     file_keys = {"kind", "set", "study"}
-    study_keys = set("id title scene set seconds quick reference".split())
+    study_keys = set("id title scene set seconds reference".split())
     shared_keys = {"ranks", "binding"}  # of the runs, too
 
     def __init__(
@@ -104,28 +100,22 @@ class Reader:
         self.content = read_toml(file)
         self.set: Entries = self.content.get("set", {})
 
+    def tables(self) -> list[dict[str, Any]]:
+        """Return the keys of each study. Raises StudyError."""
+        if "study" in self.content:
+            self.refuse_unknown(self.content, self.file_keys, "the file")
+            return list(self.content["study"])
+        one = {k: v for k, v in self.content.items() if k not in ("kind", "set")}
+        return [{"id": self.file.stem, "title": self.file.stem, **one}]
+
     def studies(self) -> list[Study]:
-        """Return the studies that are asked for. Raises StudyError."""
-        content = dict(self.content)
-        if "study" in content:
-            self.refuse_unknown(content, self.file_keys, "the file")
-            tables = content["study"]
-        else:
-            one = {k: v for k, v in content.items() if k not in ("kind", "set")}
-            tables = [{"id": self.file.stem, "title": self.file.stem, **one}]
-        found = [self.study(table) for table in tables if self.is_asked_for(table)]
+        """Return the studies. Raises StudyError."""
+        found = [self.study(table) for table in self.tables()]
         places = collections.Counter(run.run.directory for s in found for run in s.runs)
         for place, count in places.items():
             if count > 1:
                 raise StudyError(f"{self.file}: {count} runs would write into {place}")
         return found
-
-    def is_asked_for(self, table: dict[str, Any]) -> bool:
-        """Return whether the study fits the options."""
-        if self.options.quick and not table.get("quick", False):
-            return False
-        texts = (table.get("id", ""), table.get("title", ""))
-        return any(re.search(self.options.only, str(text)) for text in texts)
 
     def refuse_unknown(self, table: dict[str, Any], known: set[str], of: str) -> None:
         """Raise StudyError for a key that is not known."""
@@ -142,8 +132,6 @@ class Reader:
         name = table.get("id")
         if not isinstance(name, str) or not name or not name.isprintable():
             raise StudyError(f"{self.file}: a study has no id, or not one line of text")
-        if self.options.quick and isinstance(table["quick"], dict):
-            table = {**table, **table["quick"]}
         entries = {**self.set, **table.get("set", {})}
         runs = self.runs_of(table, entries)
         if REFERENCE in table:

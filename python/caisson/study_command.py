@@ -8,7 +8,6 @@ entries and ranks are the same.
 import argparse
 import functools
 import importlib
-import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -34,15 +33,6 @@ def whole_number(text: str) -> int:
     return int(text)
 
 
-def pattern(text: str) -> str:
-    """Return a regular expression of the command line."""
-    try:
-        re.compile(text)
-    except re.error as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: {error}") from error
-    return text
-
-
 def part_of(text: str) -> tuple[int, int]:
     """Return K and N of K/N."""
     number, of = map(int, text.split("/"))
@@ -58,9 +48,6 @@ def add_arguments(parser: argparse.ArgumentParser, file: Path | None = None) -> 
     else:
         parser.set_defaults(file=file)
     add = parser.add_argument
-    text = "studies whose id or title fits"
-    add("--only", type=pattern, default="", metavar="REGEX", help=text)
-    add("--quick", action="store_true", help="those of some seconds only")
     add("--list", action="store_true", help="say what there is, and run nothing")
     add("--results", type=Path, help="directory of the results")
     add_running_arguments(parser)
@@ -115,33 +102,29 @@ def cost_of(study: Study) -> str:
     return text + (", by the speed of the first steps" if asked else "")
 
 
-def studies_of(
-    arguments: argparse.Namespace,
-    kinds: Mapping[str, str] = KINDS,
-    reader: Callable[[Path, Options, ModuleType], Reader] = reader_of,
-) -> tuple[ModuleType, Options, list[Study]]:
-    """Return the module of a kind, the options and the studies that are asked for, or
-    none of them after a list of them. Raises StudyError."""
-    module = module_of(arguments.file, kinds)
-    options = Options(
-        only=arguments.only,
-        quick=arguments.quick,
-        program=arguments.program.resolve(),
-        results=arguments.results or RESULTS / module.NAME.replace(" ", "_"),
-    )
-    studies = reader(arguments.file, options, module).studies()
+def options_of(arguments: argparse.Namespace, module: ModuleType) -> Options:
+    """Return what makes the runs of a kind, and where."""
+    results = arguments.results or RESULTS / module.NAME.replace(" ", "_")
+    return Options(arguments.program.resolve(), results)
+
+
+def is_list(arguments: argparse.Namespace, studies: Sequence[Study]) -> bool:
+    """Return whether studies are only to be listed, after that. Raises StudyError
+    without any."""
     if not studies:
         raise StudyError(f"{arguments.file}: no study fits")
     for study in studies if arguments.list else []:
         n = len(study.runs)
         print(f"{study.id}: {study.title}, {n} runs, {cost_of(study)}", flush=True)
-    return module, options, [] if arguments.list else studies
+    return bool(arguments.list)
 
 
 def main(arguments: argparse.Namespace) -> int:
     """Run and evaluate."""
-    module, options, studies = studies_of(arguments)
-    if not studies:
+    module = module_of(arguments.file)
+    options = options_of(arguments, module)
+    studies = reader_of(arguments.file, options, module).studies()
+    if is_list(arguments, studies):
         return 0
     for study in studies:  # a user may have several of one name
         way = "choose another --results or another id"

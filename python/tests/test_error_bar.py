@@ -17,11 +17,11 @@ from caisson.ranks import Size
 from caisson.results import Results, ResultsError, Table, read_table
 from caisson.runner import Entries, Run, RunError, Status
 from caisson.runs import How, StudyRun, make
-from caisson.study import Options, Study, StudyError
+from caisson.study import Study, StudyError
 from caisson.error_bars import command, bar_study, windows
 from caisson.error_bars.mesh_error import mesh_error
 from lab import verification
-from lab.study import LabReader
+from lab.study import LabReader, Options
 
 STUDY = """
 kind = "error bar"

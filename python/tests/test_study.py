@@ -9,10 +9,10 @@ from typing import Any
 
 from caisson import study_command
 from caisson.paths import SCENES
-from caisson.study import Options, Study, StudyError, read_toml
+from caisson.study import Study, StudyError, read_toml
 from lab import study_command as lab_studies
 from lab import verification
-from lab.study import LabReader
+from lab.study import LabReader, Options
 
 HEAD = """
 kind = "forces"

@@ -10,8 +10,8 @@ from pathlib import Path
 from program import HERE, ProgramTest, caisson, scene, user_scene
 
 from caisson.runner import read_parameters
-from caisson.study import Options
 from caisson.study_command import module_of
+from lab.study import Options
 from lab.study_command import KINDS, files, reader_of
 
 CHECKS = '"Verification/Checks"'

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The commands that put other folders to work together: run and cpt."""
+"""The commands that put other folders to work together: run, cpt, park and compare."""

@@ -208,12 +208,6 @@ def write_file(
     table.write_csv(path, list(columns), list(zip(*columns.values())), remarks)
 
 
-def minutes(run: StudyRun) -> str:
-    """Return the time of a run."""
-    seconds = run.results.summary.get("wall_time_s")
-    return "broke off" if seconds is None else duration(seconds)
-
-
 def print_table(
     study: Study, depths: np.ndarray, named: list[tuple[str, Errors]], q: Quantity
 ) -> None:
@@ -223,7 +217,9 @@ def print_table(
     rows = []
     for run in study.runs:
         values = curves.forces_at(run.results.history, q.column(), depths)
-        rows.append([run.name, *map(q.text, values), minutes(run)])
+        seconds = run.results.summary.get("wall_time_s")
+        time = "broke off" if seconds is None else duration(seconds)
+        rows.append([run.name, *map(q.text, values), time])
     print(table.markdown([f"{q.column()}{unit}", *heads, "time"], rows) + "\n")
     rows = []
     for name, errors in named:

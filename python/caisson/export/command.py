@@ -12,6 +12,7 @@ such as a pull after the installation.
 import argparse
 from functools import partial
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from caisson.verdict.loaded import load
@@ -22,7 +23,7 @@ from caisson.design.quantity import length, number
 from caisson.export import files, spring_files
 from caisson.export.exported import Exported, exported
 from caisson.export.gmsh import read_gmsh
-from caisson.export.mesh import Mesh, Window, check_spacing, default_window, regular
+from caisson.export.mesh import Mesh, check_spacing, default_window, regular
 from caisson.export.places import read_places
 from caisson.export.springs import springs_of
 from caisson.export.state import State, read_state
@@ -71,18 +72,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def mesh_of(state: State, options: argparse.Namespace) -> Mesh:
     """Return the mesh that is asked for. Raises ResultsError."""
-    given = (options.radius, options.depth, options.spacing)
+    given = {n: x for n in ("radius", "depth", "spacing") if (x := getattr(options, n))}
     if options.mesh is not None:
-        if any(given):
+        if given:
             raise ResultsError("--radius, --depth and --spacing are not for --mesh")
         mesh = read_gmsh(options.mesh, state)
     else:
-        usual = default_window(state)
-        window = Window(
-            options.radius or usual.radius,
-            options.depth or usual.depth,
-            options.spacing or usual.spacing,
-        )
+        window = replace(default_window(state), **given)
         check_spacing(state, window)
         mesh = regular(state, window)
     radius, low = mesh.nodes[:, 0].max(), mesh.nodes[:, 1].min()

@@ -136,15 +136,6 @@ def exported(state: State, mesh: Mesh) -> Exported:
         if force is not None and name != "TIP":  # the tip is held
             applied[nodes, 1] -= force * spread_of(force, stress[nodes])
             is_held[nodes, 1] = False
-    return Exported(
-        state=state,
-        mesh=mesh,
-        values=values,
-        unit_weight=np.array([layer.unit_weight for layer in state.layers])[
-            values.layer
-        ],
-        applied=applied,
-        held=is_held,
-        wall=wall,
-        boundary=float(stress[:, 1].sum()),
-    )
+    weight = np.array([layer.unit_weight for layer in state.layers])[values.layer]
+    boundary = float(stress[:, 1].sum())
+    return Exported(state, mesh, values, weight, applied, is_held, wall, boundary)
