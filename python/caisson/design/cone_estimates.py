@@ -25,17 +25,8 @@ import numpy as np
 
 from caisson.design import correlations, own_cone
 from caisson.design.cone_layers import Layer
-from caisson.design.correlations import (
-    RESTS_OF_CLAY,
-    ANGLE,
-    BEST,
-    CLAY_RATIOS,
-    DENSITY,
-    HIGH,
-    LOW,
-    MODULUS,
-    STRENGTH,
-)
+from caisson.design.correlations import ANGLE, BEST, CLAY_RATIOS, DENSITY, HIGH, LOW
+from caisson.design.correlations import MODULUS, RESTS_OF_CLAY, STRENGTH
 from caisson.design.ground import CLAY, SAND, SILT, Ground
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
 

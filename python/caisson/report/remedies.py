@@ -9,7 +9,6 @@ and the check of the wall have the new sizes, and the weight changes by the stee
 skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
 """
 from collections.abc import Callable, Iterable
-from functools import partial
 from math import inf, pi
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -137,7 +136,7 @@ class Planned:
         found = {name: value / factors[name] for name, value in known.items()}
         for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
             if name in same:
-                found[name] = self.value(partial(limit_in, name))
+                found[name] = self.value(lambda x: x.limits[name])
         if limits.COMPUTED in found and np.isfinite(self.piping):
             found[limits.COMPUTED] *= piping / self.piping
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
@@ -157,11 +156,6 @@ class Planned:
         length = float(self.run.scene.get("skirt_length_m") or 0)
         more = STEEL_WEIGHT * length * (sizes.tip - self.sizes.tip)
         return self.sizes.weight + more
-
-
-def limit_in(name: str, found: Installation) -> np.ndarray:
-    """Return a limit of the suction of an installation [n] (kPa)."""
-    return found.limits[name]
 
 
 def is_enough(planned: Planned, name: str, size: float) -> bool:

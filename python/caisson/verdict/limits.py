@@ -17,10 +17,8 @@ import numpy as np
 from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson.design.rings import Ring
-from caisson.evaluation import BOILING as BOILING_COLUMN
-from caisson.evaluation import DEPTH as DEPTH_COLUMN
-from caisson.evaluation import HEAVE as HEAVE_COLUMN
-from caisson.evaluation import at_depths, pump_limit
+from caisson import evaluation
+from caisson.evaluation import DEPTH, HEAVE, at_depths, pump_limit
 from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
@@ -76,11 +74,6 @@ def factors_of(run: Results) -> dict[str, float]:
     """Return the factor on each limit; empty where a run has left no run.json yet."""
     limits = LIMITS.items() if run.scene else ()
     return {name: number_of(run, f"Factor on {x.entry}") for name, x in limits}
-
-
-def with_factor(name: str, factor: float) -> str:
-    """Return the name of a limit with its factor, if that is not 1."""
-    return name if factor == 1 else f"{name}, factor {factor:g}"
 
 
 def soft_in_words(tops: np.ndarray, shown: Units) -> str:
@@ -246,14 +239,14 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     if piping is not None:
         found[PIPING] = piping / 1e3
     found |= {name: values / 1e3 for name, values in plug.items()}
-    if BOILING_COLUMN in numbers:
-        found[BOILING] = numbers[BOILING_COLUMN] / 1e3
+    if evaluation.BOILING in numbers:
+        found[BOILING] = numbers[evaluation.BOILING] / 1e3
     if (pump := pump_limit(run)) is not None:
         found[PUMP] = np.full(len(at), pump)
     found = {name: values / factors[name] for name, values in found.items()}
-    if (length := run.scene.get("skirt_length_m")) and HEAVE_COLUMN in numbers:
+    if (length := run.scene.get("skirt_length_m")) and HEAVE in numbers:
         rows = at_depths(run)
-        depth, heave = rows[DEPTH_COLUMN], factors[LID] * rows[HEAVE_COLUMN]
+        depth, heave = rows[DEPTH], factors[LID] * rows[HEAVE]
         lid = lid_depth(depth, float(length) - depth - heave)
         met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
         found[LID] = np.where(at < met - 1e-9, inf, 0.0)
