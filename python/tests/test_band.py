@@ -15,10 +15,10 @@ from caisson.band import BEST, HIGH, LOW, band_of, member_of
 from caisson.commands import run_band
 from caisson.plot import charts
 from caisson.report import verdict
-from caisson.report.band import required_at
+from caisson.report.low_and_high import required_at
 from caisson.results import Results
 from caisson.runner import RunError
-from caisson.suggest import band
+from caisson.suggest import low_and_high
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 
@@ -38,8 +38,8 @@ class Estimates(unittest.TestCase):
         default: dict[str, object] = {"low": [], "high": [], "spread": None}
         default["cpt"] = None
         options = argparse.Namespace(**{**default, **given})
-        band.check(options)
-        return band.of_texts(texts, KNOWN, "density", options)
+        low_and_high.check(options)
+        return low_and_high.of_texts(texts, KNOWN, "density", options)
 
     def test_only_what_differs(self) -> None:
         """The rest, also of other layers, is that of the best estimate; what is
@@ -58,9 +58,11 @@ class Estimates(unittest.TestCase):
         """At its points of 5 and 95 %, of words, numbers and expressions; a relative
         density is at most 1."""
         found = self.ends(SOIL, spread="Dr 20%, su 10%")
-        density = [float(found[x][0].value("Relative density")) for x in band.SIGNS]
+        density = [
+            float(found[x][0].value("Relative density")) for x in low_and_high.SIGNS
+        ]
         self.assertEqual(density, [0.3355, 0.6645])
-        strength = [found[x][1].value("Cohesion") for x in band.SIGNS]
+        strength = [found[x][1].value("Cohesion") for x in low_and_high.SIGNS]
         words = [f"{factor}*(1000*(4 + 2*d))" for factor in (0.8355, 1.1645)]
         self.assertEqual(strength, words)
         dense = self.ends(["0: Dr = 90%"], spread="Dr 10%")

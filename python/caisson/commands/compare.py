@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from caisson.plot import comparison
 from caisson.report import scene, trace, verdict
-from caisson.report.band import cards_of, verdict_with
+from caisson.report.low_and_high import cards_of, verdict_with
 from caisson.results import Results
 from caisson.verdict import outcome
 from caisson.verdict.installation import Rate

@@ -140,7 +140,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     need them. error_bar: of the run, None for that beside the scene; in_full: say all
     of it, and not only where the report is."""
     from caisson import error_bounds, plot, report
-    from caisson.report import band, verdict
+    from caisson.report import low_and_high, verdict
     from caisson.results import Results
     from caisson.verdict import run_review
 
@@ -155,7 +155,7 @@ def draw(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     lines = [
         *(f"warning: {text}" for text in said),
         *verdict.lines_of(run),
-        band.sentence_of(run),
+        low_and_high.sentence_of(run),
     ]
     for line in filter(None, lines if in_full else []):
         print(line)

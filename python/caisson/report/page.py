@@ -17,7 +17,8 @@ from caisson.lock import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
 from caisson.results import Results, ResultsError
-from caisson.report import acceptance, band, content, layers, methods, pull, remedies
+from caisson.report import acceptance, content, layers, low_and_high, methods, pull
+from caisson.report import remedies
 from caisson.report import phases, scene, sketch, trace, verdict
 from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate
@@ -203,8 +204,8 @@ def html(run: Results, rate: Rate) -> str:
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
         known |= {
-            "verdict": band.verdict_with(run),
-            "cards": band.cards_of(run, own) + methods.card_of(beside),
+            "verdict": low_and_high.verdict_with(run),
+            "cards": low_and_high.cards_of(run, own) + methods.card_of(beside),
             "methods": beside,
         }
     if run.scene or not run.is_running:
@@ -263,10 +264,10 @@ def of_installation(
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
         "bar": "" if run.by_hand else say(LIMITS, "bar", run.shown, *reach, way),
-        "uncertainty": band.uncertainty_of(run),
+        "uncertainty": low_and_high.uncertainty_of(run),
         "factors": say(LIMITS, "factors", run.shown, sources, rings, tops),
         "overview": methods.overview(run, found, planned),
-        "quarters": band.quarters_of(run, found, end, planned),
+        "quarters": low_and_high.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),
         "acceptance": acceptance.tables_of(run, found, rate),
         "tables": installation.tables_of(found),

@@ -45,7 +45,7 @@ from caisson.design import own_cone
 from caisson.template import template
 from caisson.paths import INSTALLED
 from caisson.runner import query
-from caisson.suggest import band, clay, cone, sand, sizes, walls
+from caisson.suggest import clay, cone, low_and_high, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.suggest.trial import by_hand, cost_of, page_of, run_of
@@ -81,7 +81,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--study", type=Path, metavar="FILE.toml", help=text)
     add("--overwrite", action="store_true", help="replace files that exist")
-    band.add_arguments(parser)
+    low_and_high.add_arguments(parser)
     interpretation.add_arguments(parser)
 
 
@@ -353,7 +353,7 @@ def weakest_of(options: argparse.Namespace) -> float:
     if not options.study or options.cpt:
         return 1.0
     spread = getattr(options, "spread", None)
-    return band.weakest(spread) if spread else FACTORS_OF_STRENGTH[0]
+    return low_and_high.weakest(spread) if spread else FACTORS_OF_STRENGTH[0]
 
 
 def within_mesh(options: argparse.Namespace, layers: Sequence[Layer]) -> int:
@@ -465,7 +465,7 @@ def ends_of(
     """Return the layers of the low and the high estimate, of which there is one.
     known: the units of entries; found: a cone test. Raises SuggestError."""
     if found is None:
-        return band.of_texts(texts_of(options), known, law_of(options), options)
+        return low_and_high.of_texts(texts_of(options), known, law_of(options), options)
     return {x: cone.layers_of(found, end_of(options), x) for x in (LOW, HIGH)}
 
 
@@ -516,7 +516,9 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
         if estimates and options.spread:
             given = texts_of(options)
             deep = reached(options, layers)
-            texts[options.study] = band.study_of(options, given, layers, deep, known)
+            texts[options.study] = low_and_high.study_of(
+                options, given, layers, deep, known
+            )
         else:
             texts[options.study] = study_of(options, layers)
     if found:
@@ -537,8 +539,8 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
 def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
     """Write the scene with those of its band; return which estimates these are, and the
     page. Raises SuggestError, RunError, InputError or OSError."""
-    band.check(options)
-    estimates = band.estimates_of(options)
+    low_and_high.check(options)
+    estimates = low_and_high.estimates_of(options)
     return estimates, write(options, estimates)
 
 

@@ -75,7 +75,7 @@ def by_hand(
     nothing where no hand method knows the ground. texts: the scenes by estimate; cost:
     what the program says of it; estimates: of which scenes are to be written; test: the
     table of a cone test. Raises SuggestError where a scene does not run."""
-    from caisson.report import band as ends
+    from caisson.report import low_and_high as ends
     from caisson.report import page, verdict
     from caisson.verdict import by_hand as methods
     from caisson.verdict.installation import Rate
