@@ -8,6 +8,7 @@ below (design/plug_stability). Water boils below the lid. The pump. The plug mee
 lid: no suction helps from that depth on. The wall buckles (design/shell).
 """
 import math
+from collections.abc import Collection
 from math import inf
 from pathlib import Path
 from typing import NamedTuple
@@ -112,16 +113,21 @@ def absent_of(run: Results, found: dict[str, np.ndarray]) -> list[str]:
     return [f"{x}: {why_absent(run, x)}" for x in kinds if x not in known]
 
 
-def sources_of(
-    run: Results, found: dict[str, np.ndarray]
-) -> list[tuple[str, float, str]]:
+def chosen(run: Results, names: Collection[str]) -> dict[str, tuple[float, bool]]:
+    """Return the factors on limits of these names, by entry, each with whether the
+    scene sets it."""
+    factors, given = factors_of(run) if names else {}, run.known.get("entries", {})
+    pairs = [(LIMITS[x].entry, factors[x]) for x in names]
+    return {e: (factor, f"Design/Factor on {e}" in given) for e, factor in pairs}
+
+
+def sources_of(run: Results, names: Collection[str]) -> list[tuple[str, float, str]]:
     """Return entry and value of the factors on limits that are not 1, and where each
     comes from."""
-    factors, given = factors_of(run) if found else {}, run.known.get("entries", {})
-    known = {LIMITS[n].entry: (factors[n], LIMITS[n].source) for n in found}
+    source = {limit.entry: limit.source for limit in LIMITS.values()}
     return [
-        (entry, factor, "given" if f"Design/Factor on {entry}" in given else source)
-        for entry, (factor, source) in known.items()
+        (entry, factor, "given" if is_given else source[entry])
+        for entry, (factor, is_given) in chosen(run, names).items()
         if factor != 1
     ]
 
