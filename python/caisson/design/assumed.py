@@ -3,6 +3,7 @@
 options, which are kept in the directory of the run."""
 import argparse
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,42 +13,33 @@ from caisson.disk import InputError
 NAME = "design_methods.json"
 
 
-def numbers(text: str, low: float, high: float) -> list[float]:
-    """Return the numbers of a text within these ends. Raises ArgumentTypeError."""
-    try:
-        found = sorted(map(float, text.split(",")))
-    except ValueError:
-        found = []
-    if len(found) not in (1, 2) or found[0] < low or not found[-1] <= high:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a number from {low:g} to {high:g}, or a range such as"
-            " 0.45,0.8"
-        )
-    return found
+def reader(low: float, high: float, most: int = 1) -> Callable[[str], Any]:
+    """Return what reads a number within these ends or, where there may be two, both
+    ends of a range. It raises ArgumentTypeError."""
+
+    def read(text: str) -> Any:
+        try:
+            found = sorted(map(float, text.split(",")))
+        except ValueError:
+            found = []
+        if len(found) not in (1, 2) or found[0] < low or not found[-1] <= high:
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not a number from {low:g} to {high:g}, or a range such as"
+                " 0.45,0.8"
+            )
+        if len(found) > most:
+            raise argparse.ArgumentTypeError(f"{text!r} is not one number")
+        return [found[0], found[-1]] if most > 1 else found[0]
+
+    return read
 
 
-def friction(text: str) -> list[float]:
-    """Return both ends of a range of K tan(delta)."""
-    found = numbers(text, 0, 2)
-    return [found[0], found[-1]]
-
-
-def number(text: str, low: float, high: float) -> float:
-    """Return one number within these ends."""
-    found = numbers(text, low, high)
-    if len(found) > 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not one number")
-    return found[0]
-
-
-def ratio(text: str) -> float:
-    """Return the permeability of the plug over that outside."""
-    return number(text, 0.01, 100)
+friction = reader(0, 2, 2)  # both ends of a range of K tan(delta)
 
 
 def spread(text: str) -> float:
     """Return the load spread, 0 for none."""
-    return 0.0 if text == "none" else number(text, 1.2, 10)
+    return 0.0 if text == "none" else float(reader(1.2, 10)(text))
 
 
 OPTIONS: dict[str, tuple[Any, str, str]] = {
@@ -59,7 +51,7 @@ OPTIONS: dict[str, tuple[Any, str, str]] = {
     ),
     "k_tan_delta_outside": (friction, "LOW,HIGH", "that of the outer wall"),
     "plug_permeability_ratio": (
-        ratio,
+        reader(0.01, 100),
         "X",
         "k_f, the permeability of the plug over that of the sand outside; default: 1",
     ),

@@ -25,17 +25,8 @@ import numpy as np
 
 from caisson.design import correlations, own_cone
 from caisson.design.cone_layers import Layer
-from caisson.design.correlations import (
-    RESTS_OF_CLAY,
-    ANGLE,
-    BEST,
-    CLAY_RATIOS,
-    DENSITY,
-    HIGH,
-    LOW,
-    MODULUS,
-    STRENGTH,
-)
+from caisson.design.correlations import ANGLE, BEST, CLAY_RATIOS, DENSITY, HIGH, LOW
+from caisson.design.correlations import MODULUS, RESTS_OF_CLAY, STRENGTH
 from caisson.design.ground import CLAY, SAND, SILT, Ground
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
 
@@ -154,18 +145,14 @@ def along(ground: Ground, layer: Layer, growth: float) -> np.ndarray:
     return np.asarray(1 + growth * (ground.depth - layer.top))
 
 
-def clay_moduli(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
-    """Return E (Pa) [n] of clay and silt as a multiple of the best strength."""
-    strength = correlations.strengths_of(ground, names, BEST)
-    return CLAY_RATIOS[end + 1] * strength
-
-
 # ground, names of correlations and an end to the values of a quantity [n]; K_0 of sand
-# is high where the friction angle is low
+# is high where the friction angle is low, and E of clay and silt is a multiple of the
+# best strength
 OF_SAND: dict[str, Callable[[Ground, dict[str, str], int], np.ndarray]] = {
     DENSITY: correlations.densities_of,
     ANGLE: correlations.angles_of,
-    MODULUS: clay_moduli,
+    MODULUS: lambda g, n, end: CLAY_RATIOS[end + 1]
+    * correlations.strengths_of(g, n, BEST),
     REFERENCE: correlations.reference_moduli,
     STRENGTH: correlations.strengths_of,
     K0: lambda g, n, end: correlations.at_rest(correlations.angles_of(g, n, -end)),

@@ -26,11 +26,11 @@ from caisson.design.quantity import NUMBER, parts_of, value_of
 EVERY = ("depth", "qc", "fs", "u2", "rf")  # the last in place of fs
 DEEPEST_WATER = 5000.0  # m
 ARCHIVE = b"PK\x03\x04"  # a workbook begins with
-# what tells a format, what reads it, and the option that it may have
-FORMATS: dict[str, tuple[Callable[..., bool], Callable[..., Table], str]] = {
-    "AGS 4": (cone_formats.is_ags, cone_formats.ags_of_lines, "location"),
-    "XML": (cone_formats.is_xml, cone_formats.bro, "location"),
-    "GEF": (cone_formats.is_gef, cone_formats.gef, ""),
+# how a format begins, or a line of it, what reads it, and the option that it may have
+FORMATS: dict[str, tuple[str, Callable[..., Table], str]] = {
+    "AGS 4": (r'\A[\s"]*(GROUP"*,|\*\*)', cone_formats.ags_of_lines, "location"),
+    "XML": (r"\A\s*<", cone_formats.bro, "location"),
+    "GEF": (r'^\s*"?#\s*(GEFID|COLUMNINFO)\b', cone_formats.gef, ""),
 }
 
 
@@ -96,7 +96,11 @@ def refuse_options(how: How, allowed: str, form: str) -> None:
 
 def format_of(lines: Sequence[str]) -> str:
     """Return the format of a text, "" for a table."""
-    return next((form for form, (is_it, *_) in FORMATS.items() if is_it(lines)), "")
+    text = "\n".join(lines)
+    every = (
+        x for x, (begin, *_) in FORMATS.items() if re.search(begin, text, re.I | re.M)
+    )
+    return next(every, "")
 
 
 def table_of(path: Path, content: bytes, how: How) -> Table:

@@ -67,18 +67,7 @@ def chosen_of(names: Sequence[str], location: str, example: str) -> str:
     return location or names[0]
 
 
-def first_line(lines: Sequence[str]) -> str:
-    """Return the first line that is not empty."""
-    return next((line.lstrip() for line in lines if line.strip()), "")
-
-
 # --------------------------------------------------------------------- GEF
-
-
-def is_gef(lines: Sequence[str]) -> bool:
-    """Return whether the lines of a file are in GEF."""
-    keys = re.compile(r'\s*"?#\s*(GEFID|COLUMNINFO)\b', re.I)
-    return any(map(keys.match, lines))
 
 
 def unquoted(line: str) -> str:
@@ -204,12 +193,6 @@ def gef(lines: Sequence[str], _: str) -> Table:
 # ------------------------------------------------------------------- AGS 4
 
 
-def is_ags(lines: Sequence[str]) -> bool:
-    """Return whether the lines of a file are in an AGS format."""
-    first = first_line(lines).replace('"', "").lstrip().upper()
-    return first.startswith(("GROUP,", "**"))
-
-
 def is_ags_group(rows: Rows) -> bool:
     """Return whether a table is the group SCPT: a row has headings of AGS 4."""
     return any(DEPTH in cells for _, cells in rows[:MOST])
@@ -332,11 +315,6 @@ def ags(groups: Mapping[str, Rows], where: str) -> Table:
 
 
 # ----------------------------------------------------------------- BRO-XML
-
-
-def is_xml(lines: Sequence[str]) -> bool:
-    """Return whether the lines of a file are XML."""
-    return first_line(lines).startswith("<")
 
 
 def first_of(element: ElementTree.Element, name: str) -> ElementTree.Element:

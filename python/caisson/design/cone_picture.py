@@ -12,13 +12,7 @@ from matplotlib.patches import Patch
 
 from caisson.design import correlations
 from caisson import disk
-from caisson.design.cone_estimates import (
-    ENDS,
-    INDEX,
-    REFERENCE,
-    RESISTANCE,
-    Estimates,
-)
+from caisson.design.cone_estimates import ENDS, INDEX, REFERENCE, RESISTANCE, Estimates
 from caisson.design.cone_rules import ASSUMED
 from caisson.design.correlations import ANGLE, BEST, DENSITY, MODULUS, STRENGTH
 from caisson.units import WATER

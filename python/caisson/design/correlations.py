@@ -181,14 +181,11 @@ DENSITIES: dict[str, Density] = {
 }
 
 
-def stress_at_tip(ground: Ground) -> np.ndarray:
-    """Return the mean stress (Pa) [n] under which sand fails at a tip."""
-    return np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
-
-
 def angles_of(ground: Ground, names: dict[str, str], end: int) -> np.ndarray:
     """Return phi [n] of Bolton (1986) under a tip, with K_0 = 1 - sin phi."""
-    density, stress = DENSITIES[names[DENSITY]], stress_at_tip(ground)
+    density = DENSITIES[names[DENSITY]]
+    # under which sand fails at a tip
+    stress = np.sqrt(np.maximum(ground.tip, ground.stress) * ground.stress)
     first = jamiolkowski if density is answering else density  # takes less time
     k0 = np.full(len(ground.depth), 0.5)
     for _ in range(ROUNDS):

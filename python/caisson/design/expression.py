@@ -24,16 +24,9 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "max": max,
     "abs": abs,
     "if": lambda condition, yes, no: yes if condition else no,
-    "sqrt": math.sqrt,
-    "exp": math.exp,
-    "log": math.log,
-    "log10": math.log10,
-    "tanh": math.tanh,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "pow": math.pow,
 }
+OF_MATH = "sqrt exp log log10 tanh sin cos tan pow".split()
+FUNCTIONS |= {name: getattr(math, name) for name in OF_MATH}
 UNITS_OF_NUMBERS = [unit for unit in quantity.UNITS if unit]
 OF_TERMS = ("min", "max", "abs", "if")  # their arguments have the same unit
 UNITS = "|".join(map(re.escape, sorted(EVERY, key=len, reverse=True)))

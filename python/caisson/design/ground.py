@@ -30,7 +30,7 @@ mudline, and u_2 counts from there.
 
 SI units: m, Pa, N/m3.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -185,18 +185,10 @@ def under(test: Test, tip: np.ndarray, weight: np.ndarray) -> Ground:
     else:
         ratio = np.clip(100 * test.friction / net, *FRICTION_RATIOS)
     normalized, index = normalize(net, np.maximum(effective, LEAST_STRESS), ratio)
-    return Ground(
-        depth,
-        test.resistance,
-        test.friction,
-        tip,
-        weight,
-        total,
-        effective,
-        normalized,
-        ratio,
-        index,
-        test.pore_pressure,
+    found = tip, weight, total, effective, normalized, ratio, index
+    return replace(
+        Ground(depth, test.resistance, test.friction, *found),
+        pore_pressure=test.pore_pressure,
         measured_from=test.measured_from,
         above=test.above,
         gaps=test.gaps,

@@ -251,12 +251,8 @@ class HoulsbyByrne:
     def __init__(self, by_name: Mapping[str, Case], permeability_ratio: float) -> None:
         self.by_name, self.permeability_ratio = by_name, permeability_ratio
 
-    def forces(self, h: float, case: str) -> Forces:
-        """Return the forces at an embedment, of jacking."""
-        return self.forces_under(STILL, h, case)
-
-    def forces_under(self, flow: Seepage, h: float, case: str) -> Forces:
-        """Return the forces at an embedment under flow."""
+    def forces(self, h: float, case: str, flow: Seepage = STILL) -> Forces:
+        """Return the forces at an embedment: of jacking, or under flow."""
         caisson, enhanced = self.by_name[case]
         return caisson.forces(h, enhanced, flow)
 

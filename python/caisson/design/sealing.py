@@ -25,11 +25,6 @@ import numpy as np
 from caisson.units import WATER
 
 
-def exit_path(h: float) -> float:
-    """Return the length of the way of the water along both walls (m)."""
-    return 2 * h
-
-
 def exit_gradient(suction: float, h: float, pressure_factor: float) -> float:
     """Return the mean gradient inside at an embedment (m) under a suction (Pa)."""
     return (1 - pressure_factor) * suction / (WATER * h)

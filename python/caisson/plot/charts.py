@@ -286,17 +286,13 @@ def force_curves(run: Results, end: float | None = None) -> list[Curve]:
 # ----------------------------------------------------------------- suction
 
 
-def color_of(name: str) -> str:
-    """Return the color of a required suction by the name of its method."""
-    return COLOR_OF.get(name.removesuffix(theory.ASSUMED_CONE), GREEN)
-
-
 def method_suctions(answers: suction_methods.Answers) -> list[Curve]:
     """Return the required and the other critical suctions of the methods (kPa) over
     depth."""
     found, depth = list[Curve](), answers.depth
     for method in answers.required:
-        color = color_of(method.name)
+        name = method.name.removesuffix(theory.ASSUMED_CONE)
+        color = COLOR_OF.get(name, GREEN)
         low, high = (end / 1e3 for end in method.band)
         found.append(band(f"required, {method.name}", color, low, high, depth))
         for bound in method.bounds.values():

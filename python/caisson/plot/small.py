@@ -3,9 +3,7 @@
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
 from caisson.shown import Units
 
@@ -27,15 +25,10 @@ def in_units(figure: Figure, shown: Units) -> None:
     numbers in the units of a run."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
-            label_in_units(axis, shown)
-
-
-def label_in_units(axis: Axis, shown: Units) -> None:
-    """Change the label and the numbers of an axis."""
-    label = axis.get_label_text()
-    if (factor := shown.factor_of(label)) != 1:
-        axis.set_label_text(shown.named(label))
-        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{factor * x:g}"))
+            label = axis.get_label_text()
+            if (factor := shown.factor_of(label)) != 1:
+                axis.set_label_text(shown.named(label))
+                axis.set_major_formatter(lambda x, _, f=factor: f"{f * x:g}")
 
 
 def over_depth(axes: Axes, label: str, depth: str, grid: str = "both") -> None:

@@ -59,15 +59,11 @@ def load_of(run: Results, found: Installation) -> dict[str, Any]:
 def factors_of(run: Results, found: Installation) -> dict[str, Any]:
     """Return the table of the factors, and what is missing for a design basis where
     piping limits the suction."""
-    factors, entries = limits.factors_of(run), run.known.get("entries", {})
-    given = {
-        k for k in factors if f"Design/Factor on {limits.LIMITS[k].entry}" in entries
-    }
-    known = {limits.LIMITS[k].entry: (factors[k], k in given) for k in factors}
+    chosen = limits.chosen(run, limits.LIMITS)
     document = run.entry(f"Design/{acceptance.DOCUMENT}")
-    every = [(entry, *rest) for entry, rest in known.items()]
+    every = [(entry, *rest) for entry, rest in chosen.items()]
     rows = say_rows("factors", every, document, cells=4)
-    is_default = factors[limits.PIPING] == 1 and limits.PIPING not in given
+    is_default = chosen[limits.LIMITS[limits.PIPING].entry] == (1, False)
     has_piping = not {limits.PIPING, limits.COMPUTED}.isdisjoint(found.limits)
     heads = ["factor on", "value", "what it acts on", "source"]
     return {

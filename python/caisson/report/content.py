@@ -29,17 +29,14 @@ def rank_of(curve: Curve) -> int:
     return next((i for i, mark in enumerate(marks) if curve.get(mark)), len(marks))
 
 
-def at_first_sight(found: list[Curve]) -> list[Curve]:
-    """Hide all curves but the first ones, and what is behind the end of these."""
+def with_points(every: list[Curve]) -> list[Curve]:
+    """Return the curves that have a point to draw; hide all but the first ones, and
+    what is behind the end of these."""
+    found = list(filter(charts.has_points, every))
     seen = [c for c in found if not c.get("hidden") and c["color"] != GRAY]
     for curve in sorted(seen, key=rank_of)[FIRST:]:
         curve["hidden"] = True
     return found
-
-
-def with_points(found: list[Curve]) -> list[Curve]:
-    """Return the curves that have a point to draw."""
-    return at_first_sight(list(filter(charts.has_points, found)))
 
 
 def figure_in_units(figure: dict[str, Any], shown: Units) -> dict[str, Any]:

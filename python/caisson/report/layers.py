@@ -93,12 +93,6 @@ def numbers_of(layer: Mapping[str, Any]) -> Numbers:
     return found
 
 
-def deepest_of(run: Results) -> float:
-    """Return the depth to which the range of a number is said (m)."""
-    lengths = (run.scene.get("skirt_length_m"), end_of(run))
-    return max((float(x) for x in lengths if x), default=math.inf)
-
-
 def line_of(layer: Layer, values: list[float]) -> tuple[float, float] | None:
     """Return value at the mudline and slope over depth of a number of the parts, None
     where it is no straight line. Each part has the number of its middle."""
@@ -119,7 +113,9 @@ def changing(run: Results, layer: Layer, values: list[float], unit: str) -> str:
     factor, name = scale_of(values, unit)
     name = readable(name)
     line = line_of(layer, values)
-    deepest = min(layer.bottom or math.inf, deepest_of(run))
+    lengths = (run.scene.get("skirt_length_m"), end_of(run))
+    deepest = max((float(x) for x in lengths if x), default=math.inf)
+    deepest = min(layer.bottom or math.inf, deepest)
     if line is not None and math.isfinite(deepest):
         ends = [line[0] + line[1] * z for z in (layer.top, deepest)]
     else:

@@ -133,7 +133,7 @@ def under_suction(
 
     def of_byrne(case: str) -> np.ndarray:
         both = zip(flows, at)
-        return np.array([byrne.forces_under(f, float(h), case).total for f, h in both])
+        return np.array([byrne.forces(float(h), case, f).total for f, h in both])
 
     cases = {case: of_byrne(case) for case in byrne.cases}
     found = [theory.Beside(suction_methods.HOULSBY_BYRNE, cases)]
@@ -222,7 +222,7 @@ def of_byrne(run: Results, h: float) -> str:
         flow, what = installation.seepage(caisson, s, h, ratio), "suction"
     if not ends or not reasons.ratio_in_words(mine, *ends):
         return ""
-    low, high = (byrne.forces_under(flow, h, case) for case in byrne.cases)
+    low, high = (byrne.forces(h, case, flow) for case in byrne.cases)
     name, both = suction_methods.HOULSBY_BYRNE, (mine, ends[0], ends[1])
     beside = reasons.Compared(name, h, what, both, computed, low, high)
     frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction

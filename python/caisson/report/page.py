@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from caisson.design import plug_stability
 from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
 from caisson.band import BEST
@@ -254,7 +255,8 @@ def of_installation(
     planned = scene.end_of(run) or float(found.depth[-1])
     sources = limits.sources_of(run, found.limits)
     rings = limits.rings_counted(run, found.depth)
-    tops = theory.uncovered(theory.site_of(run), found.depth)
+    site = theory.site_of(run)
+    tops = theory.of_plug(site, found.depth, plug_stability.uncovered) or []
     bounds = found.required_bounds if found.has_suction else found.force_bounds
     reach = bounds.end if bounds else None, found.depth[-1]
     way = installation.way_to_an_error(run)

@@ -8,8 +8,7 @@ With another wall or diameter the stress on them stays, on their new areas, the 
 and the check of the wall have the new sizes, and the weight changes by the steel of the
 skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
 """
-from collections.abc import Callable, Iterable
-from functools import partial
+from collections.abc import Callable
 from math import inf, pi
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -137,7 +136,7 @@ class Planned:
         found = {name: value / factors[name] for name, value in known.items()}
         for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
             if name in same:
-                found[name] = self.value(partial(limit_in, name))
+                found[name] = self.value(lambda x: x.limits[name])
         if limits.COMPUTED in found and np.isfinite(self.piping):
             found[limits.COMPUTED] *= piping / self.piping
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
@@ -159,20 +158,21 @@ class Planned:
         return self.sizes.weight + more
 
 
-def limit_in(name: str, found: Installation) -> np.ndarray:
-    """Return a limit of the suction of an installation [n] (kPa)."""
-    return found.limits[name]
-
-
 def is_enough(planned: Planned, name: str, size: float) -> bool:
     """Return whether the caisson goes in with another diameter or wall (m)."""
     sizes = planned.sizes._replace(**{name: size})
     return planned.suffices(sizes._replace(weight=planned.steel(sizes)))
 
 
-def nearest(planned: Planned, name: str, found: Iterable[float]) -> float | None:
-    """Return the first diameter or wall (m) that suffices; None without one."""
-    return next((size for size in found if is_enough(planned, name, size)), None)
+def nearest(planned: Planned, name: str) -> float | None:
+    """Return the diameter, a wider one, or the wall (m) that is nearest to the present
+    one and suffices; None without one."""
+    is_wide, old = name == "diameter", planned.sizes._asdict()[name]
+    step, signs = STEPS[is_wide], (1,) if is_wide else (-1, 1)
+    n = (WIDEST - 1) * old / step if is_wide else np.ceil((THICKEST - 1) * old / step)
+    found = (old + step * i * sign for i in range(1, int(n) + 1) for sign in signs)
+    enough = (x for x in found if x >= THINNEST * old and is_enough(planned, name, x))
+    return next(enough, None)
 
 
 def reach(planned: Planned, name: str, size: float) -> float:
@@ -198,23 +198,6 @@ def weight_of(planned: Planned) -> float | None:
     ]
 
 
-def wall_of(planned: Planned) -> float | None:
-    """Return the wall (m) nearest to the present one that suffices, in mm."""
-    wall, step = planned.sizes.wall, STEPS[0]
-    n = int(np.ceil((THICKEST - 1) * wall / step))
-    changes = (step * i * sign for i in range(1, n + 1) for sign in (-1, 1))
-    walls = (wall + x for x in changes if wall + x >= THINNEST * wall)
-    return nearest(planned, "wall", walls)
-
-
-def diameter_of(planned: Planned) -> float | None:
-    """Return the diameter (m) nearest to the present one that suffices."""
-    outer, step = planned.sizes.diameter, STEPS[1]
-    n = int((WIDEST - 1) * outer / step)
-    wider = (outer + step * i for i in range(1, n + 1))
-    return nearest(planned, "diameter", wider)
-
-
 class Size(NamedTuple):
     """Another diameter or wall (m): the present one, the one that suffices, the range
     that was searched and, where none suffices, one of TRIED with the depth (m) that it
@@ -233,8 +216,7 @@ def size_of(planned: Planned, name: str) -> Size:
     is_wide, old = name == "diameter", planned.sizes._asdict()[name]
     unit = 1.0 if is_wide else 1e-3
     tried, depth = unit * float(f"{TRIED[is_wide] * old / unit:.3g}"), None
-    enough = diameter_of(planned) if is_wide else wall_of(planned)
-    if enough is None:
+    if (enough := nearest(planned, name)) is None:
         depth = reach(planned, name, tried)
         depth = depth if depth > planned.found.depth[-1] + 0.05 else None
     most = (WIDEST if is_wide else THICKEST) * old

@@ -45,13 +45,6 @@ def readable(text: str) -> str:
     return text
 
 
-def with_unit(value: float, unit: str) -> str:
-    """Return a number with its unit, as an engineer writes it."""
-    factor, name = scale_of([value], unit)
-    space = "" if name == "degrees" else " "
-    return f"{value / factor:.4g}{space}{readable(name)}".rstrip()
-
-
 def in_units(value: str | float, unit: str) -> str:
     """Return the value of an entry with its unit, a word as it is."""
     try:
@@ -59,7 +52,9 @@ def in_units(value: str | float, unit: str) -> str:
     except ValueError:
         is_list = re.fullmatch(r"[-+\d.eE, ]+", str(value)) and unit
         return f"{value} {readable(unit)}" if is_list else str(value)
-    return with_unit(number, unit) if unit else str(value)
+    factor, name = scale_of([number], unit)
+    space = "" if name == "degrees" else " "
+    return f"{number / factor:.4g}{space}{readable(name)}" if unit else str(value)
 
 
 def file_of(run: Results) -> str:

@@ -67,12 +67,6 @@ def of_suction(
     return say("goes_in", run, found, planned, most, bar, nearest)
 
 
-def of_force(run: Results, found: Installation) -> str:
-    """Return the verdict on a body that is pushed in."""
-    is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
-    return say("pushed", found, "Jacked" if is_jacked else "Sunk")
-
-
 @functools.lru_cache(maxsize=16)
 def verdict_of(run: Results) -> Verdict:
     """Return the verdict on a run, or on a scene by hand methods, in so many words; an
@@ -89,7 +83,8 @@ def said_of(run: Results) -> Verdict:
     if found is None:
         return Verdict("")
     if not len(found.required) or not run.scene.get("submerged_weight_N"):
-        return Verdict(of_force(run, found))
+        is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
+        return Verdict(say("pushed", found, "Jacked" if is_jacked else "Sunk"))
     ended = outcome.end_of(run)
     if ended is None:
         return Verdict(of_suction(run, found, None))

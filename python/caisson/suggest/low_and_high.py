@@ -20,17 +20,8 @@ from caisson.band import HIGH, LOW
 from caisson.design import quantity
 from caisson.suggest import clay, sand
 from caisson.suggest.entry import Layer, SuggestError
-from caisson.suggest.soil import (
-    ANGLES_OF_FRICTION,
-    DERIVED,
-    STRENGTH,
-    Change,
-    Given,
-    head_of,
-    layers_of,
-    name_of,
-    texts_in,
-)
+from caisson.suggest.soil import ANGLES_OF_FRICTION, DERIVED, STRENGTH, Change, Given
+from caisson.suggest.soil import head_of, layers_of, name_of, texts_in
 from caisson.suggest.walls import is_by_density, wall_friction_of
 from caisson.template import template
 

@@ -13,12 +13,8 @@ from collections.abc import Iterable, Mapping
 from caisson import density_law as names
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
 from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
-from caisson.design.density import (
-    ATMOSPHERE,
-    CRITICAL_ANGLE,
-    density_of_angle,
-    reference_modulus,
-)
+from caisson.design.density import ATMOSPHERE, CRITICAL_ANGLE, density_of_angle
+from caisson.design.density import reference_modulus
 
 # relative density in the middle of a class, and its ends in % (ISO 14688-2)
 WORDS = {

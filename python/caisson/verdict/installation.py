@@ -141,7 +141,8 @@ class Installation:
 
     def named(self, name: str) -> str:
         """Return the name of a limit with its factor, if that is not 1."""
-        return limits.with_factor(name, self.factors.get(name, 1.0)) if name else ""
+        factor = self.factors.get(name, 1.0)
+        return name if not name or factor == 1 else f"{name}, factor {factor:g}"
 
 
 def needs_suction(run: Results) -> bool:

@@ -8,6 +8,7 @@ below (design/plug_stability). Water boils below the lid. The pump. The plug mee
 lid: no suction helps from that depth on. The wall buckles (design/shell).
 """
 import math
+from collections.abc import Collection
 from math import inf
 from pathlib import Path
 from typing import NamedTuple
@@ -17,10 +18,8 @@ import numpy as np
 from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson.design.rings import Ring
-from caisson.evaluation import BOILING as BOILING_COLUMN
-from caisson.evaluation import DEPTH as DEPTH_COLUMN
-from caisson.evaluation import HEAVE as HEAVE_COLUMN
-from caisson.evaluation import at_depths, pump_limit
+from caisson import evaluation
+from caisson.evaluation import DEPTH, HEAVE, at_depths, pump_limit
 from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
@@ -78,11 +77,6 @@ def factors_of(run: Results) -> dict[str, float]:
     return {name: number_of(run, f"Factor on {x.entry}") for name, x in limits}
 
 
-def with_factor(name: str, factor: float) -> str:
-    """Return the name of a limit with its factor, if that is not 1."""
-    return name if factor == 1 else f"{name}, factor {factor:g}"
-
-
 def soft_in_words(tops: np.ndarray, shown: Units) -> str:
     """Return which soft layers below the tip govern reverse bearing, by their tops [n]
     (m), nan where the clay at the tip does; nothing where none does."""
@@ -119,16 +113,21 @@ def absent_of(run: Results, found: dict[str, np.ndarray]) -> list[str]:
     return [f"{x}: {why_absent(run, x)}" for x in kinds if x not in known]
 
 
-def sources_of(
-    run: Results, found: dict[str, np.ndarray]
-) -> list[tuple[str, float, str]]:
+def chosen(run: Results, names: Collection[str]) -> dict[str, tuple[float, bool]]:
+    """Return the factors on limits of these names, by entry, each with whether the
+    scene sets it."""
+    factors, given = factors_of(run) if names else {}, run.known.get("entries", {})
+    pairs = [(LIMITS[x].entry, factors[x]) for x in names]
+    return {e: (factor, f"Design/Factor on {e}" in given) for e, factor in pairs}
+
+
+def sources_of(run: Results, names: Collection[str]) -> list[tuple[str, float, str]]:
     """Return entry and value of the factors on limits that are not 1, and where each
     comes from."""
-    factors, given = factors_of(run) if found else {}, run.known.get("entries", {})
-    known = {LIMITS[n].entry: (factors[n], LIMITS[n].source) for n in found}
+    source = {limit.entry: limit.source for limit in LIMITS.values()}
     return [
-        (entry, factor, "given" if f"Design/Factor on {entry}" in given else source)
-        for entry, (factor, source) in known.items()
+        (entry, factor, "given" if is_given else source[entry])
+        for entry, (factor, is_given) in chosen(run, names).items()
         if factor != 1
     ]
 
@@ -246,14 +245,14 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     if piping is not None:
         found[PIPING] = piping / 1e3
     found |= {name: values / 1e3 for name, values in plug.items()}
-    if BOILING_COLUMN in numbers:
-        found[BOILING] = numbers[BOILING_COLUMN] / 1e3
+    if evaluation.BOILING in numbers:
+        found[BOILING] = numbers[evaluation.BOILING] / 1e3
     if (pump := pump_limit(run)) is not None:
         found[PUMP] = np.full(len(at), pump)
     found = {name: values / factors[name] for name, values in found.items()}
-    if (length := run.scene.get("skirt_length_m")) and HEAVE_COLUMN in numbers:
+    if (length := run.scene.get("skirt_length_m")) and HEAVE in numbers:
         rows = at_depths(run)
-        depth, heave = rows[DEPTH_COLUMN], factors[LID] * rows[HEAVE_COLUMN]
+        depth, heave = rows[DEPTH], factors[LID] * rows[HEAVE]
         lid = lid_depth(depth, float(length) - depth - heave)
         met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
         found[LID] = np.where(at < met - 1e-9, inf, 0.0)

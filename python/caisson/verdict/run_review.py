@@ -6,13 +6,17 @@ import functools
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from caisson import template
 from caisson.results import Results, Table
 from caisson.table import digits
 
+say = partial(template.say, Path(__file__).with_suffix(".jinja"))
 # A fall counts if it takes less than this way, in widths of the tip. The stretches of
 # the way, over which forces are averaged, are an eighth of that: single rows scatter.
 SHORT_WAY, STRETCH = 0.5, 0.5 / 8
@@ -163,16 +167,7 @@ class Review:
     def fall_of_tip(self) -> str:
         """Return a warning of a tip force that falls suddenly."""
         share, depth = max(self.falls(), default=(0.0, 0.0))
-        if share <= LARGEST_FALL:
-            return ""
-        return (
-            f"the tip force falls by {percent(share)} within half of the width of the"
-            f" tip at a penetration of {depth:.4g} m, where no layer begins. Soil that"
-            " is pushed aside steadily does not do that: the mesh or the points are too"
-            " coarse there, and the curve is uncertain by as much. Set more Rigid"
-            " body/Cells across the wall, or Material points/Split and merge = true,"
-            " and compare: see doc/limitations.md, Snaps at the tip"
-        )
+        return say("fall", percent(share), depth) if share > LARGEST_FALL else ""
 
     def has_cut_off(self) -> bool:
         """Return whether a layer has a tension cut-off, so that it may come off."""
@@ -206,14 +201,7 @@ class Review:
         due = self.adhesion_down_to(depth, side).sum()
         if due <= 0 or borne >= LEAST_OF_ADHESION * due:
             return ""
-        return (
-            f"the friction on the {side} wall is {percent(1 - borne / due)} below"
-            " adhesion times area, in the mean over the way: the clay has come off part"
-            " of the wall, where nothing presses it on, and adhesion acts only where it"
-            " touches. Set Soil/Layer/Tension cut-off = 0, its default, if the clay"
-            " stays at the wall, as saturated clay does until water enters the gap: see"
-            " doc/limitations.md, I have clay"
-        )
+        return say("bare", side, percent(1 - borne / due))
 
     def lost_work(self) -> str:
         """Return a warning of work that the transfer has lost."""
@@ -222,29 +210,16 @@ class Review:
         lost = energy.get("numerical_dissipation_J") or 0
         undrained = self.run.entry("Water/Level") in ("undrained", "coupled")
         allowed = LARGEST_LOST_UNDRAINED if undrained else LARGEST_LOST
-        if not (work > 0 and lost > allowed * work):
-            return ""
-        return (
-            "the transfer between points and nodes has lost"
-            f" {percent(lost / work)} of the work of the body. The force contains it,"
-            " and has been seen too large by two to five times as much. Reduce"
-            " Time/Mass scaling or Rigid body/Velocity, set finer cells where the"
-            " stiffness changes, or a larger Method/FLIP fraction, and compare: see"
-            " doc/limitations.md, Energy"
-        )
+        is_much = work > 0 and lost > allowed * work
+        return say("lost", percent(lost / work)) if is_much else ""
 
     def fast_soil(self) -> str:
         """Return a warning of forces of which inertia is a part."""
         found = kinetic_share_of(self.run)
         if found is None or found.is_small:
             return ""
-        return (
-            f"the kinetic energy of the soil is {percent(found.share)} of the work of"
-            f" the body at a penetration of {found.penetration:.4g} m, more than"
-            f" {percent(LARGEST_KINETIC)}: inertia is a part of the forces. Reduce"
-            " Time/Inertia tolerance, Time/Mass scaling or Rigid body/Velocity, and"
-            " compare: see doc/limitations.md, Start and velocity"
-        )
+        most = percent(LARGEST_KINETIC)
+        return say("fast", percent(found.share), found.penetration, most)
 
 
 def down_to(end: float | None, texts: Iterable[str]) -> list[str]:

@@ -9,30 +9,22 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
 from caisson.template import say
-from caisson.design import (
-    andersen,
-    assumed,
-    clay,
-    dnv,
-    houlsby_byrne,
-    layered,
-    plug_stability,
-    senders_randolph,
-    unified,
-)
+from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
+from caisson.design import plug_stability, senders_randolph, unified
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
 from caisson.design.method import Forces, Method
 
 Scene = Mapping[str, Any]
+Of = TypeVar("Of")
 SENTENCES = Path(__file__).with_name("theory.jinja")
 # The law whose strength is one friction angle; run.json names the law of a layer.
 MOHR_COULOMB = "Mohr-Coulomb"
@@ -200,12 +192,17 @@ def refuse_undrained(site: Site) -> None:
         raise NotApplicable("the run is undrained, and the method is for drained sand")
 
 
-def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
-    """Return (top, soil) of all layers. Raises NotApplicable."""
-    found = [(top_of(e), soil_of(e, i)) for i, e in site.layers(deepest)]
-    if any(soil == "sand" for _, soil in found):
+def layers_with_soils(site: Site, deepest: float) -> list[tuple[int, Scene, str]]:
+    """Return (number, layer, soil) of all layers. Raises NotApplicable."""
+    found = [(i, entry, soil_of(entry, i)) for i, entry in site.layers(deepest)]
+    if any(soil == "sand" for *_, soil in found):
         refuse_undrained(site)
     return found
+
+
+def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
+    """Return (top, soil) of all layers. Raises NotApplicable."""
+    return [(top_of(x), soil) for _, x, soil in layers_with_soils(site, deepest)]
 
 
 def above_clay(site: Site, deepest: float) -> float:
@@ -219,12 +216,9 @@ def above_clay(site: Site, deepest: float) -> float:
 
 def only(site: Site, deepest: float, soil: str) -> None:
     """Raise NotApplicable where a layer is another soil."""
-    numbers = [number for number, _ in site.layers(deepest)]
-    for number, (_, found) in zip(numbers, soils_of(site, deepest)):
+    for i, _, found in layers_with_soils(site, deepest):
         if found != soil:
-            raise NotApplicable(
-                f"layer {number} is {found}, and the method is for {soil}"
-            )
+            raise NotApplicable(f"layer {i} is {found}, and the method is for {soil}")
 
 
 CONE_NEEDED = "a cone test is needed (--cpt FILE)"
@@ -237,14 +231,12 @@ def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
         return site.cone
     sands = list[Sand]()
     try:
-        for (i, entry), (top, soil) in zip(
-            site.layers(deepest), soils_of(site, deepest)
-        ):
+        for i, entry, soil in layers_with_soils(site, deepest):
             if soil == "sand":
                 sands.append(sand_of(entry, i))
             elif with_clay:
                 weight = float(entry["submerged_unit_weight_N_m3"])
-                sands.append(Sand(top, weight, 0.5, 0.0, 0.0, is_clay=True))
+                sands.append(Sand(top_of(entry), weight, 0.5, 0.0, 0.0, is_clay=True))
             else:
                 raise NotApplicable(f"layer {i} is {soil}")
     except ResultsError as error:  # run.json lacks something
@@ -281,28 +273,16 @@ def dnv_of(site: Site, deepest: float) -> Method:
 OfSite = Callable[["Site", float], Method]  # layers down to a depth (m)
 
 
-def in_sand(make: Callable[[Skirt, Profile], Method]) -> OfSite:
-    """Return a method from a cone, which is for sand alone, of a site."""
-
-    def of_site(site: Site, deepest: float) -> Method:
-        """Return the method. Raises NotApplicable."""
-        skirt = skirt_of(site)
-        only(site, deepest, "sand")
-        return make(skirt, cone_of(site, deepest))
-
-    return of_site
-
-
 def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
     """Return the layers of clay and sand down to a depth (m). Raises NotApplicable."""
     found = []
-    for (_, entry), (top, soil) in zip(site.layers(deepest), soils_of(site, deepest)):
+    for _, entry, soil in layers_with_soils(site, deepest):
         weight = float(entry["submerged_unit_weight_N_m3"])
         numbers = [0.0] * 3
         if soil == "clay":
             walls = [adhesion(site.scene, entry, side) for side in ("inner", "outer")]
             numbers = [float(entry["cohesion_Pa"]), *walls]
-        found.append(clay.Layer(top, weight, *numbers))
+        found.append(clay.Layer(top_of(entry), weight, *numbers))
     return found
 
 
@@ -332,28 +312,29 @@ def known_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
     return []
 
 
+def of_plug(
+    site: Site,
+    depth: np.ndarray,
+    of: Callable[[Skirt, list[clay.Layer], np.ndarray], Of],
+) -> Of | None:
+    """Return what a function of plug_stability says of a plug of clay at embedments [n]
+    (m); None without clay."""
+    layers = known_layers_of(site, float(depth.max()))
+    return of(skirt_of(site), layers, depth) if layers else None
+
+
 def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
     """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
     [n]; none without clay."""
-    layers = known_layers_of(site, float(depth.max()))
-    return plug_stability.allowable(skirt_of(site), layers, depth) if layers else {}
-
-
-def uncovered(site: Site, depth: np.ndarray) -> list[float]:
-    """Return the tops (m) of the clay whose reverse bearing no limit covers, as the tip
-    is in sand above it at embedments [n]."""
-    if not (layers := known_layers_of(site, float(depth.max()))):
-        return []
-    return plug_stability.uncovered(skirt_of(site), layers, depth)
+    return of_plug(site, depth, plug_stability.allowable) or {}
 
 
 def soft_below(site: Site, depth: np.ndarray) -> np.ndarray:
     """Return the top of the soft layer below the tip that governs reverse bearing (m),
     [n] at embedments [n]; nan where the clay at the tip does, or where there is none.
     """
-    if not (layers := known_layers_of(site, float(depth.max()))):
-        return np.full(len(depth), np.nan)
-    return plug_stability.soft_below(skirt_of(site), layers, depth)
+    found = of_plug(site, depth, plug_stability.soft_below)
+    return np.full(len(depth), np.nan) if found is None else found
 
 
 def adhesion(scene: Scene, entry: Scene, side: str) -> float:
@@ -378,37 +359,26 @@ class Description(NamedTuple):
         return (*self.cases, *self.bound)
 
 
+def from_cone(name: str, key: str, color: str, module: Any) -> Description:
+    """Return the method from a cone of a module, which is for sand alone."""
+
+    def of_site(site: Site, deepest: float) -> Method:
+        """Return the method. Raises NotApplicable."""
+        skirt = skirt_of(site)
+        only(site, deepest, "sand")
+        return cast(Method, module.method(skirt, cone_of(site, deepest)))
+
+    return Description(name, key, color, module.CASES, of_site)
+
+
+BYRNE = "Houlsby & Byrne (2005)", "houlsby_byrne", "#2166ac"
+SENDERS = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
 METHODS = (
-    Description(
-        "Houlsby & Byrne (2005)",
-        "houlsby_byrne",
-        "#2166ac",
-        HoulsbyByrne.cases,
-        houlsby_byrne_of,
-        (UNDISTURBED,),
-    ),
+    Description(*BYRNE, HoulsbyByrne.cases, houlsby_byrne_of, (UNDISTURBED,)),
     Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of),
-    Description(
-        "Senders & Randolph (2009)",
-        "senders_randolph",
-        "#2e8b57",
-        senders_randolph.CASES,
-        in_sand(senders_randolph.method),
-    ),
-    Description(
-        "ISO 19901-4 (unified)",
-        "unified",
-        "#c51b7d",
-        unified.CASES,
-        in_sand(unified.method),
-    ),
-    Description(
-        "Andersen et al. (2008)",
-        "andersen",
-        "#7b3294",
-        andersen.CASES,
-        in_sand(andersen.method),
-    ),
+    from_cone(*SENDERS, senders_randolph),
+    from_cone("ISO 19901-4 (unified)", "unified", "#c51b7d", unified),
+    from_cone("Andersen et al. (2008)", "andersen", "#7b3294", andersen),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
 )
 OF_CLAY = METHODS[-1]
