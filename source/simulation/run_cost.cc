@@ -44,8 +44,6 @@ namespace CaissonMPM
     return {least, slows * least};
   }
 
-
-
   std::string
   describe(const RunCost &cost)
   {

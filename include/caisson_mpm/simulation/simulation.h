@@ -123,10 +123,10 @@ namespace CaissonMPM
     FaceStrength
     strength_of_face(const ContactFace &face) const;
 
-    /** Return the speed of compression waves in a material, with mass scaling.
-     * Units: m/s. */
-    double
-    wave_speed(const unsigned int material) const;
+    /** Return the least and the largest speed of compression waves in the
+     * materials, with mass scaling. Units: m/s. */
+    std::pair<double, double>
+    slowest_and_fastest_wave() const;
     /** Return the largest work of a rank over the mean of all. @p costs
      * [n_global_cells] are used of the cells of this rank. Collective. */
     double
