@@ -25,8 +25,6 @@ namespace CaissonMPM
       {"OMPI_MCA_btl", "self"}};
   } // namespace
 
-
-
   bool
   set_up_mpi()
   {

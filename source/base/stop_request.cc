@@ -9,6 +9,7 @@
 #include <deal.II/base/patterns.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -37,28 +38,6 @@ namespace CaissonMPM
                                                        SIGXCPU,
                                                        SIGPIPE,
                                                        SIGXFSZ}};
-
-    std::string
-    name_of_signal(const int signal)
-    {
-      switch (signal)
-        {
-          case SIGINT:
-            return "SIGINT";
-          case SIGTERM:
-            return "SIGTERM";
-          case SIGHUP:
-            return "SIGHUP";
-          case SIGQUIT:
-            return "SIGQUIT";
-          case SIGUSR1:
-            return "SIGUSR1";
-          case SIGUSR2:
-            return "SIGUSR2";
-          default:
-            return "SIGXCPU";
-        }
-    }
   } // namespace
 
   StopRequest::StopRequest()
@@ -156,7 +135,7 @@ namespace CaissonMPM
   StopRequest::find_reason()
   {
     if (received_signal != 0)
-      return name_of_signal(received_signal) + " received";
+      return "SIG" + std::string(sigabbrev_np(received_signal)) + " received";
 
     const Clock::time_point             now     = Clock::now();
     const std::chrono::duration<double> elapsed = now - start_time;

@@ -86,5 +86,4 @@ namespace CaissonMPM
     text << file.rdbuf();
     return file.is_open() ? text.str() : std::string();
   }
-
 } // namespace CaissonMPM

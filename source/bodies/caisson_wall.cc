@@ -8,7 +8,6 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
-
 namespace CaissonMPM
 {
   using namespace dealii;

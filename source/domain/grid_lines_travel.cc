@@ -273,5 +273,4 @@ namespace CaissonMPM
       }
     return smallest;
   }
-
 } // namespace CaissonMPM

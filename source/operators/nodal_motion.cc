@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/kernels/cell_map.h>
-#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 

@@ -3,7 +3,6 @@
 #include <caisson_mpm/operators/nodal_data.h>
 #include <caisson_mpm/operators/nodal_work.h>
 
-
 namespace CaissonMPM
 {
   void

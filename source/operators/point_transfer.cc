@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/kernel_table.h>
-#include <caisson_mpm/operators/consistent_mass.h>
+#include <caisson_mpm/kernels/layout.h>
+#include <caisson_mpm/operators/nodal_data.h>
 #include <caisson_mpm/operators/point_transfer.h>
-
 
 namespace CaissonMPM
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/text.h>
-#include <caisson_mpm/kernels/user_point.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/output/frame_data.h>
 #include <caisson_mpm/output/point_quantities.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <caisson_mpm/kernels/user_point.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/point_quantities.h>
 

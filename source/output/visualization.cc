@@ -58,7 +58,6 @@ namespace CaissonMPM
 
     // a piece takes some hundred bytes of memory for each point
     constexpr unsigned long long points_per_piece = 100000;
-
   } // namespace
 
   Visualization::Visualization(const std::string &directory)

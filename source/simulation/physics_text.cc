@@ -26,8 +26,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   std::string
   physics()
   {
@@ -37,8 +35,6 @@ namespace CaissonMPM
         result += entry.path + " = " + entry.value() + "\n";
     return result;
   }
-
-
 
   std::string
   changed_physics()
@@ -51,8 +47,6 @@ namespace CaissonMPM
         lines.insert(entry.path + " = " + entry.value() + "\n");
     return std::accumulate(lines.begin(), lines.end(), std::string());
   }
-
-
 
   std::vector<ChangedEntry>
   changes_between(const std::string &before, const std::string &now)
@@ -75,8 +69,6 @@ namespace CaissonMPM
     return changes;
   }
 
-
-
   std::string
   value_of(const std::string &path, const std::string &physics)
   {
@@ -85,5 +77,4 @@ namespace CaissonMPM
         return entry.second;
     return "";
   }
-
 } // namespace CaissonMPM

@@ -4,7 +4,7 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/domain/all_points.h>
-#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/simulation/recorder.h>
 #include <caisson_mpm/water/lid_compartment.h>
 

@@ -44,8 +44,6 @@ namespace CaissonMPM
     return {likely / within, likely * within};
   }
 
-
-
   std::string
   describe(const RunCost &cost)
   {

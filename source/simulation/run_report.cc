@@ -4,12 +4,13 @@
 #include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/base/version.h>
 #include <caisson_mpm/materials/umat_law.h>
-#include <caisson_mpm/output/json.h>
 #include <caisson_mpm/simulation/run_report.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cerrno>
 #include <cmath>
@@ -26,6 +27,27 @@ namespace CaissonMPM
   namespace
   {
     // ---------------------------------------------------------- run.json
+
+    // RFC 8259; members keep their order
+    using Json = nlohmann::ordered_json;
+
+    /** Return an object with these members. */
+    Json
+    object_of(const NamedNumbers &values)
+    {
+      Json result = Json::object();
+      for (const auto &[name, value] : values)
+        result[name] = value;
+      return result;
+    }
+
+    /** Return the text of a file; what is not finite is null, and bytes that
+     * are no UTF-8 are replaced. */
+    std::string
+    text_of(const Json &json)
+    {
+      return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    }
 
     void
     append(Json &members, const Json::initializer_list_t more)

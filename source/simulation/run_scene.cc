@@ -97,8 +97,6 @@ namespace CaissonMPM
     }
   } // namespace
 
-
-
   ExitStatus
   run_scene(const CommandLine &command_line, std::ostream &out)
   {

@@ -77,23 +77,17 @@ namespace CaissonMPM
     leave_subsection();
   }
 
-
-
   double
   Schedule::time_of(const double depth) const
   {
     return body.motion().time_of_travel(travel_at(depth)).value_or(never);
   }
 
-
-
   bool
   Schedule::times_are_known() const
   {
     return body.motion().time_of_travel(0.).has_value();
   }
-
-
 
   bool
   Schedule::has_reached(const double depth) const
@@ -103,8 +97,6 @@ namespace CaissonMPM
                                                         travel <= wanted;
   }
 
-
-
   double
   Schedule::find_end() const
   {
@@ -112,15 +104,11 @@ namespace CaissonMPM
                     last_penetration ? time_of(*last_penetration) : never);
   }
 
-
-
   double
   Schedule::steps_left(const double step_size) const
   {
     return std::ceil((end_time() - clock.time) / step_size);
   }
-
-
 
   void
   Schedule::name_unused_entries(ParameterOrigins &origins) const
@@ -129,8 +117,6 @@ namespace CaissonMPM
       origins.add_unused({"Time/End penetration", "Output/Frame penetrations"},
                          "Rigid body/Kind is none");
   }
-
-
 
   void
   Schedule::check_parameters() const
@@ -165,8 +151,6 @@ namespace CaissonMPM
       "depth that the body reaches with its velocity.");
   }
 
-
-
   std::pair<double, double>
   Schedule::travel_to_hold() const
   {
@@ -181,16 +165,12 @@ namespace CaissonMPM
     return {std::min(start, travel), std::max(start, travel)};
   }
 
-
-
   void
   Schedule::start()
   {
     next_record = record_interval.value_or(0.);
     resume();
   }
-
-
 
   void
   Schedule::resume()
@@ -207,8 +187,6 @@ namespace CaissonMPM
     pass_frames();
   }
 
-
-
   void
   Schedule::pass_frames()
   {
@@ -220,8 +198,6 @@ namespace CaissonMPM
                                       }),
                        frame_depths.end());
   }
-
-
 
   double
   Schedule::next_frame_time(const double after) const
@@ -250,8 +226,6 @@ namespace CaissonMPM
     return next;
   }
 
-
-
   double
   Schedule::shorten(const double step_size) const
   {
@@ -265,8 +239,6 @@ namespace CaissonMPM
              step_size;
   }
 
-
-
   bool
   Schedule::is_finished() const
   {
@@ -276,16 +248,12 @@ namespace CaissonMPM
     return clock.time >= end - tolerance * std::max(1., end);
   }
 
-
-
   bool
   Schedule::follows_a_frame() const
   {
     return frame_interval && frame_times.empty() &&
            clock.time - last_frame < close * *frame_interval;
   }
-
-
 
   Schedule::Due
   Schedule::take_due()
@@ -308,8 +276,6 @@ namespace CaissonMPM
     return due;
   }
 
-
-
   double
   Schedule::fraction_done() const
   {
@@ -326,8 +292,6 @@ namespace CaissonMPM
     return std::min(1., fraction);
   }
 
-
-
   unsigned int
   Schedule::n_frames() const
   {
@@ -343,8 +307,6 @@ namespace CaissonMPM
     return n;
   }
 
-
-
   std::vector<double>
   Schedule::frames_out_of_reach() const
   {
@@ -359,15 +321,11 @@ namespace CaissonMPM
     return result;
   }
 
-
-
   double
   Schedule::n_records() const
   {
     return record_interval ? end / *record_interval : never;
   }
-
-
 
   std::string
   Schedule::end_description() const
@@ -376,8 +334,6 @@ namespace CaissonMPM
              to_text(end, 6) + " s" :
              "at a penetration of " + to_text(*last_penetration) + " m";
   }
-
-
 
   std::string
   Schedule::entry_of_end() const
@@ -390,8 +346,6 @@ namespace CaissonMPM
     return std::isfinite(time) ? "Time/End time" :
                                  "Time/End penetration or Time/End time";
   }
-
-
 
   void
   Schedule::register_totals(RunTotals &totals)

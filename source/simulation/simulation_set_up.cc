@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <limits>
 
 namespace CaissonMPM
 {
@@ -76,10 +75,10 @@ namespace CaissonMPM
   Simulation::check_parameters()
   {
     soil.check_parameters();
-    body.refine(lines.number_to_divide_by());
+    body.shape().refine(lines.number_to_divide_by());
     // undrained sand keeps its volume, and fails like clay
-    body.enter_soil(soil.has_layer_with_friction() &&
-                    water->traits().bulk_modulus == 0.);
+    body.shape().enter_soil(soil.has_layer_with_friction() &&
+                            water->traits().bulk_modulus == 0.);
     body.check_parameters();
     lines.check_parameters();
     generator.check_parameters();
@@ -179,9 +178,7 @@ namespace CaissonMPM
     const auto mach_number = body.motion().largest_mach_number();
     if (!mach_number)
       return;
-    double slowest_wave = wave_speed(0);
-    for (unsigned int i = 1; i < soil.n_materials(); ++i)
-      slowest_wave = std::min(slowest_wave, wave_speed(i));
+    double slowest_wave = slowest_and_fastest_wave().first;
     if (time_step.has_inertia_tolerance())
       slowest_wave /= std::sqrt(time_step.inertia_for(
         stress_over_inertia_at_tip(body.motion().beginning().travel)));
@@ -334,9 +331,8 @@ namespace CaissonMPM
   void
   Simulation::check_initial_speed() const
   {
-    double fastest_wave = 0., fastest_point = 0.;
-    for (unsigned int i = 0; i < soil.n_materials(); ++i)
-      fastest_wave = std::max(fastest_wave, wave_speed(i));
+    const double fastest_wave  = slowest_and_fastest_wave().second;
+    double       fastest_point = 0.;
     points.for_each_motion([&](const Point<2> &,
                                const Vector2 &velocity,
                                const double,
@@ -418,6 +414,16 @@ namespace CaissonMPM
   {
     return std::sqrt(materials[material].p_wave_modulus /
                      soil.inertial_density(material));
+  }
+
+  std::pair<double, double>
+  Simulation::slowest_and_fastest_wave() const
+  {
+    std::vector<double> speeds;
+    for (unsigned int i = 0; i < soil.n_materials(); ++i)
+      speeds.push_back(wave_speed(i));
+    const auto found = std::minmax_element(speeds.begin(), speeds.end());
+    return {*found.first, *found.second};
   }
 
   FaceStrength
@@ -523,10 +529,11 @@ namespace CaissonMPM
   void
   Simulation::review(ParameterOrigins &origins) const
   {
-    double slowest_wave = std::numeric_limits<double>::infinity();
-    for (unsigned int i = 0; i < soil.n_materials(); ++i)
-      slowest_wave = std::min(slowest_wave, wave_speed(i));
-    SceneReview(*this, mass_of_body(), slowest_wave, number_of_steps(), origins)
+    SceneReview(*this,
+                mass_of_body(),
+                slowest_and_fastest_wave().first,
+                number_of_steps(),
+                origins)
       .all();
     const double reach = body.shape().exists() && !body.shape().expands() ?
                            lines.total_travel() - body.shape().bottom() :

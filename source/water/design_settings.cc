@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // python/caisson/verdict/limits.py has the names.
-#include <caisson_mpm/water/design_settings.h>
+#include <caisson_mpm/water/water_settings.h>
 
 #include <deal.II/base/patterns.h>
 
@@ -114,8 +114,6 @@ namespace CaissonMPM
        "regular triangle or a square. 0 stands for not given.",
        "m"}};
   } // namespace
-
-
 
   DesignSettings::DesignSettings()
     : Section("/Design", Influence::none)

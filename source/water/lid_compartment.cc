@@ -4,7 +4,6 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/water/lid_compartment.h>
 
-
 namespace CaissonMPM
 {
   namespace
@@ -17,7 +16,6 @@ namespace CaissonMPM
 
     // Of the radius, over which a rise of the plug is measured.
     constexpr double window_of_lift = .04;
-
   } // namespace
 
   LidCompartment::LidCompartment(const WaterScene &scene)

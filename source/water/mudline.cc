@@ -244,7 +244,7 @@ namespace CaissonMPM
   Mudline::find_beyond(const BackgroundGrid &grid, const OpenSides &open) const
   {
     std::vector<Beyond> result(grid.n_nodes(), Beyond::cell);
-    const auto know = [&](const unsigned int node, const Beyond beyond) {
+    const auto set = [&](const unsigned int node, const Beyond beyond) {
       if (result[node] == Beyond::cell || beyond == Beyond::plug)
         result[node] = beyond;
     };
@@ -256,12 +256,12 @@ namespace CaissonMPM
         const bool  in_plug = side_of(cell) == Side::plug;
         if (is_top(cell) && (in_plug || open.surface))
           for (unsigned int k = 2; k < 4; ++k)
-            know(node[k], in_plug ? Beyond::plug : Beyond::outside);
+            set(node[k], in_plug ? Beyond::plug : Beyond::outside);
         for (const unsigned int n : node)
           if (open.outer && grid.is_at(n, GridLines::Side::outer))
-            know(n, Beyond::outside);
+            set(n, Beyond::outside);
           else if (open.bottom && grid.is_at(n, GridLines::Side::bottom))
-            know(n, Beyond::bottom);
+            set(n, Beyond::bottom);
       }
     return result;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/intervals.h>
-#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/water/steady_seepage.h>
 
 #include <deal.II/base/mpi.h>

@@ -24,7 +24,7 @@ struct Lines : EmptyParameters
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
     lines.check_parameters();
-    body.refine(lines.number_to_divide_by());
+    body.shape().refine(lines.number_to_divide_by());
     body.check_parameters();
     lines.place(body.shape(), soil, travel, uplift);
   }
@@ -312,7 +312,7 @@ check_bevel()
           "set Wall thickness = 0.2\nend\n");
   for (const bool has_friction : {true, false})
     {
-      s.body.enter_soil(has_friction);
+      s.body.shape().enter_soil(has_friction);
       const double height = has_friction ? .2 : .15;
       verdict(has_friction ? "bevel with friction" : "bevel without friction",
               std::abs(s.body.shape().tip_height() - height),

@@ -8,7 +8,7 @@
 #define caisson_mpm_operators_excess_pressure_h
 
 #include <caisson_mpm/base/expression.h>
-#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
 

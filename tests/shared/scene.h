@@ -44,7 +44,7 @@ struct Scene : EmptyParameters
     soil.declare_layers(3);
     prm.parse_input_from_string(parameters);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
-    body.refine(lines.number_to_divide_by());
+    body.shape().refine(lines.number_to_divide_by());
     body.check_parameters();
     soil.check_parameters();
     lines.check_parameters();

@@ -24,7 +24,7 @@ FLOORS = [
         "output",
         "#cfd8dc",
         "files and observations",
-        "Records, Visualization, Observations",
+        "Visualization, Observations, RowFile",
     ),
     (
         "water",

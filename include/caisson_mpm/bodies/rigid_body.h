@@ -37,20 +37,11 @@ namespace CaissonMPM
     void
     name_unused_entries(ParameterOrigins &origins) const override;
 
-    /** See BodyShape::refine(). */
-    void
-    refine(const double number)
+    BodyShape &
+    shape()
     {
-      shapes[chosen_shape]->refine(number);
+      return *shapes[chosen_shape];
     }
-
-    /** See BodyShape::enter_soil(). */
-    void
-    enter_soil(const bool has_friction)
-    {
-      shapes[chosen_shape]->enter_soil(has_friction);
-    }
-
     const BodyShape &
     shape() const
     {

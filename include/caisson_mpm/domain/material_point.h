@@ -35,7 +35,7 @@ namespace CaissonMPM
                            CAISSON_LIST_MEMBER,
                            CAISSON_MEMBER)
 
-    /** What a user's law keeps (kernels/user_point.h): of all points as many
+    /** What a user's law keeps (Kernels::UserState): of all points as many
      * numbers, and none where no soil has such a law. */
     std::vector<double> user_state;
 

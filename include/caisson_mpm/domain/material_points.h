@@ -8,19 +8,64 @@
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_point.h>
 #include <caisson_mpm/domain/point_exchange.h>
-#include <caisson_mpm/domain/size_range.h>
 #include <caisson_mpm/kernels/layout.h>
 
 #include <deal.II/particles/particle_handler.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /** Whether points of a size are to be split where another is wanted. */
+  inline bool
+  is_too_large(const double size, const double wanted)
+  {
+    constexpr double too_large = 1.05;
+    return size > too_large * wanted;
+  }
+
+  /** Whether points of a size are to be merged where another is wanted. Those
+   * without a size are not. Halves of the wanted size become one again, which
+   * is then not too large. */
+  inline bool
+  is_too_small(const double size, const double wanted)
+  {
+    constexpr double too_small = .51;
+    return size > 0. && size < too_small * wanted;
+  }
+
+  /**
+   * Bounds of the sizes of the points in a cell, in one direction. They may be
+   * wider than necessary, since points also leave.
+   */
+  class SizeRange
+  {
+  public:
+    void
+    include(const double size)
+    {
+      largest = std::max(largest, size);
+      if (size > 0.)
+        smallest = std::min(smallest, size);
+    }
+
+    /** Whether no point can be too large or too small. */
+    bool
+    suits(const double wanted) const
+    {
+      return !is_too_large(largest, wanted) && !is_too_small(smallest, wanted);
+    }
+
+  private:
+    double smallest = std::numeric_limits<double>::max(), largest = 0.;
+  };
+
   /**
    * All material points of the soil.
    *

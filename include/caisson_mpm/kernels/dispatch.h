@@ -5,7 +5,7 @@
 #define caisson_mpm_kernels_dispatch_h
 
 #include <caisson_mpm/kernels/instruction_set.h>
-#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/layout.h>
 
 namespace CaissonMPM
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The plain data that the kernels and the floors above share: material points
-// (MPs), cells, nodes, and the arguments of the kernels.
+// (MPs), cells, nodes, the arguments of the kernels, and the kernels.
 #ifndef caisson_mpm_kernels_layout_h
 #define caisson_mpm_kernels_layout_h
 
@@ -11,8 +11,6 @@ namespace CaissonMPM
 {
   namespace Kernels
   {
-    struct KernelTable; // kernel_table.h
-
     /** What a material law may keep of a point besides its plastic strains. */
     constexpr int n_state_variables = 4;
 
@@ -213,7 +211,7 @@ namespace CaissonMPM
       // the last step
       unsigned short *n_yielding;
       // of the blocks [block_size][n_user_state]: what the user's law keeps
-      // (user_point.h), if there is one
+      // (UserState), if there is one
       Rows<double> user_state   = {};
       int          n_user_state = 0;
 
@@ -342,6 +340,104 @@ namespace CaissonMPM
       unsigned int  n_leaving;   // entries of leaving that are in use
       unsigned int  n_limited;   // MPs whose velocity was cut
       double        stress_work; // of the total stress, J per radian
+    };
+
+    // ---------------------------------------------------------- a law of the
+    // user
+
+    /** The numbers of a point that the program keeps for a user's law, before
+     * the law's own variables: where each of them begins. */
+    namespace UserState
+    {
+      constexpr int modulus   = 0;  // the largest one so far, Pa
+      constexpr int strain    = 1;  // rr, zz, tt, rz (engineering)
+      constexpr int gradient  = 5;  // F - I: rr, rz, zr, zz, tt
+      constexpr int variables = 10; // the law's own
+    }                               // namespace UserState
+
+    /** A point in a step. Tensors are rr, zz, tt, rz, in the axes after the
+     * turn of the step; SI units. */
+    struct UserPoint
+    {
+      double  stress[4];    // at the start of the step, and then at its end
+      double  strain[4];    // the increment; rz is the engineering one
+      double  gradient[5];  // dt L in the fixed axes: rr, rz, zr, zz, tt
+      double  cosine, sine; // of the turn, from z to r
+      double  place[2];     // r, z at the start of the step
+      double  cell_size;
+      double  id;
+      double *state; // see UserState
+    };
+
+    /** Take a point to the end of the step; what fails is kept in @p law. */
+    using UserLaw = void (*)(void *law, UserPoint &point);
+
+    // -------------------------------------------------------------- the
+    // kernels
+
+    /** The kernels, compiled for one instruction set. */
+    struct KernelTable
+    {
+      const char *name;
+      int         width;
+
+      /**
+       * Add mass, momentum, internal and body force of all MPs to the nodes.
+       * @p sums [n_nodes] must be zero on entry. The moments are those left by
+       * grid_to_points but in changed cells; on return they are up to date, and
+       * say how full the cells are.
+       */
+      void (*points_to_grid)(const StepContext &, NodalSums *sums);
+
+      /**
+       * Add the nodal forces of a pressure to @p out [n_nodes],
+       *   out_I += int (grad N_I + e_r kappa N_I / r) p dV,
+       * with p = sum_J N_J p_J of the nodal values @p pressure [n_nodes] in Pa,
+       * integrated as the stress is: call it after points_to_grid. Units: N per
+       * radian.
+       */
+      void (*pressure_force)(const StepContext &,
+                             const double *pressure,
+                             NodalVector  *out);
+
+      /**
+       * Add the nodal forces of a pore pressure, at the points of all cells, to
+       * @p out [n_nodes],
+       *   out_I -= sum_p V_p N_I(x_p) grad p(x_p),
+       * with the nodal values @p pressure [n_nodes] in Pa. @p filled [n_cells]
+       * is the share of the height below the free surface of the water, whose
+       * pressure the upper corners of a cut cell have; cells with 0 have no
+       * part in it. Units: N per radian.
+       */
+      void (*pressure_gradient_force)(const StepContext &,
+                                      const double *pressure,
+                                      const double *filled,
+                                      NodalVector  *out);
+
+      /**
+       * out += M x with the consistent mass matrix of the MPs, out and x
+       * [n_nodes].
+       */
+      void (*apply_mass)(const StepContext &,
+                         const NodalVector *x,
+                         NodalVector       *out);
+
+      /**
+       * Update velocity, stress, volume and position of all MPs, list those
+       * outside their cell of the moved grid, and renew the moments for the
+       * next step.
+       */
+      void (*grid_to_points)(const StepContext &,
+                             const PointUpdate &,
+                             UpdateResult &);
+
+      /**
+       * Raise @p largest to the p-wave modulus of the points of each material
+       * whose stiffness varies, without the water. Units: Pa.
+       */
+      void (*largest_moduli)(const PointsView &,
+                             const Material *materials,
+                             double         *largest);
     };
   } // namespace Kernels
 } // namespace CaissonMPM

@@ -9,8 +9,8 @@
 #ifndef caisson_mpm_kernels_user_material_h
 #define caisson_mpm_kernels_user_material_h
 
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/material_law.h>
-#include <caisson_mpm/kernels/user_point.h>
 
 namespace CaissonMPM
 {

@@ -19,7 +19,7 @@
 
 #include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/base/guarded_call.h>
-#include <caisson_mpm/kernels/user_point.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/umat_settings.h>
 #include <caisson_mpm/materials/user_library.h>
 

@@ -28,7 +28,7 @@
 #include <caisson_mpm/bodies/body_surface.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/contact_face.h>
-#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/nodal_force.h>
 
 #include <array>
 #include <map>

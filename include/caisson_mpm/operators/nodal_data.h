@@ -9,6 +9,7 @@
 #include <caisson_mpm/kernels/layout.h>
 
 #include <cmath>
+#include <functional>
 
 namespace CaissonMPM
 {
@@ -32,6 +33,29 @@ namespace CaissonMPM
   nodal_vectors(const NodalData &v)
   {
     return reinterpret_cast<const Kernels::NodalVector *>(v.begin());
+  }
+  /** to = M from with the consistent mass matrix of the points of all ranks, at
+   * all nodes that this rank knows, of the active cells of @p step. Both have
+   * two components per node; hanging nodes follow their masters in @p from, and
+   * give them their part of @p to. @p correct, if given, adds to the product of
+   * the points of this rank. Collective over MPI. */
+  inline void
+  apply_consistent_mass(
+    const Kernels::KernelTable                        &kernels,
+    const Kernels::StepContext                        &step,
+    const HangingNodes                                &hanging_nodes,
+    const NodalData                                   &from,
+    NodalData                                         &to,
+    const std::function<void(Kernels::NodalVector *)> &correct = {})
+  {
+    to = 0.;
+    to.zero_out_ghost_values();
+    kernels.apply_mass(step, nodal_vectors(from), nodal_vectors(to));
+    if (correct)
+      correct(nodal_vectors(to));
+    hanging_nodes.distribute(to, 2);
+    to.compress(dealii::VectorOperation::add);
+    to.update_ghost_values();
   }
 } // namespace CaissonMPM
 

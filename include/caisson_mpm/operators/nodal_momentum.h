@@ -13,7 +13,7 @@
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_constraints.h>
 #include <caisson_mpm/operators/nodal_data.h>
-#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/operators/selective_mass.h>
 
 #include <vector>

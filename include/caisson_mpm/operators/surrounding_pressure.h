@@ -13,7 +13,7 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/kernels/kernel_table.h>
+#include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/operators/nodal_force.h>
 
 namespace CaissonMPM

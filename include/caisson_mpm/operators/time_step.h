@@ -28,7 +28,6 @@
 #include <caisson_mpm/base/section.h>
 #include <caisson_mpm/domain/background_grid.h>
 #include <caisson_mpm/domain/material_points.h>
-#include <caisson_mpm/kernels/kernel_table.h>
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/materials/soil.h>
 

@@ -132,6 +132,10 @@ namespace CaissonMPM
      * larger. Units: m; m/s. */
     double
     wave_speed_under_tip(const double travel) const;
+    /** Return the least and the largest speed of compression waves in the
+     * materials, with mass scaling. Units: m/s. */
+    std::pair<double, double>
+    slowest_and_fastest_wave() const;
     /** Return the largest work of a rank over the mean of all. @p costs
      * [n_global_cells] are used of the cells of this rank. Collective. */
     double

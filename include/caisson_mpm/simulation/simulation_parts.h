@@ -17,7 +17,7 @@
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
 #include <caisson_mpm/operators/energy_balance.h>
-#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/operators/nodal_motion.h>
 #include <caisson_mpm/operators/time_step.h>
 #include <caisson_mpm/simulation/installation.h>

@@ -13,7 +13,7 @@
 #include <caisson_mpm/materials/soil.h>
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/operators/contact.h>
-#include <caisson_mpm/operators/nodal_forces.h>
+#include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/water/water_settings.h>
 
 #include <string>

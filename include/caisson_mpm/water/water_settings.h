@@ -5,11 +5,11 @@
 #define caisson_mpm_water_water_settings_h
 
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/water/design_settings.h>
 #include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/mudline.h>
 #include <caisson_mpm/water/suction.h>
 
+#include <deque>
 #include <string>
 
 namespace CaissonMPM
@@ -21,6 +21,22 @@ namespace CaissonMPM
     undrained,
     seepage,
     coupled
+  };
+
+  /**
+   * The factors on the limits of suction, the steel of the wall, and what a
+   * certifier asks for. The program only hands them on to the report, in
+   * run.json: nothing that it computes depends on them.
+   */
+  struct DesignSettings : public Section
+  {
+    DesignSettings();
+
+  private:
+    std::deque<double> values; // of the entries, which keep their places
+    std::string        number_of_buckets = "1";
+    std::string        spread_of_buckets;
+    std::string        source_of_factors;
   };
 
   /** What an undrained model needs. */
