@@ -136,6 +136,11 @@ def rest_of_run(history: Table) -> float | None:
     return changes[0] if changes and changes[0] > history[DEPTH][0] else None
 
 
+def rest_of(run: Results) -> float | None:
+    """Return the penetration by weight alone (m), that of a run or by hand methods."""
+    return run.rest if run.by_hand else rest_of_run(run.history)
+
+
 def sinks_on(history: Table) -> list[tuple[float, float]]:
     """Return the ways (m) below the penetration by weight over which the weight
     suffices again: there the caisson sinks on by itself."""

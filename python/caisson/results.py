@@ -89,6 +89,11 @@ class Results:
         self.by_hand: Callable[[np.ndarray], Table] | None = None
         self.estimates: dict[str, "Results"] = {}
 
+    @functools.cached_property
+    def rest(self) -> float | None:
+        """The penetration by weight (m), where a hand method and not a run finds it."""
+        return None
+
     def table(self, name: str, column: str) -> Table:
         """Return a .csv file of the run that must have this column."""
         path = self.directory / name

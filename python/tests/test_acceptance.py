@@ -201,7 +201,10 @@ class Rows(WithRun):
         flow = 1.05 * AREA + 36
         self.assertAlmostEqual(stop.flow[1], flow, delta=0.2)
         self.assertAlmostEqual(stop.flow[0], flow + 36, delta=0.4)
-        self.assertEqual([depth for depth, *_ in stop.suctions], [2.0, 4.5])
+        # from the depth of rest on
+        self.assertEqual([depth for depth, *_ in stop.suctions], [1.5, 4.5])
+        self.assertEqual(found.rest, 1.5)
+        self.says("without a factor it is the limit itself, with no margin")
         self.says("tilt not given: Design/Largest tilt")
 
     def test_factors(self) -> None:

@@ -166,6 +166,15 @@ class SelfWeight(unittest.TestCase):
         found = rest_of(caisson(), WEIGHT, False, 6)
         self.assertAlmostEqual(found, h, places=4)
 
+    def test_it_stands_above_the_bottom_of_a_layer(self) -> None:
+        """There the resistance of a tip falls, at 1 m to half; or within a layer."""
+        for force, rest in (
+            (lambda h: 10 * h * (1 if h < 1 else 0.5), 0.9),
+            (lambda h: 10 * h if h < 0.97 else 5 * h, 0.9),
+        ):
+            found = self_weight_penetration(force, 9, 3, [0, 1])
+            self.assertAlmostEqual(found, rest, places=9)
+
     def test_it_stands_on_the_first_strong_layer(self) -> None:
         """The resistance rises at 1 m and falls at 1.5 m without reaching it again
         before 3 m."""

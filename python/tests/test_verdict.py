@@ -119,6 +119,12 @@ class Verdicts(WithPage):
         found = verdict.verdict_of(self.run_of(scene=scene))
         self.assertIn("allowable one (boiling below the lid).", found.text)
 
+    def test_critical_gradient_that_the_program_knows(self) -> None:
+        """Means over a window may hide it."""
+        scene = {**SCENE, "infeasible": {"penetration_m": 4.2, "reason": "piping"}}
+        self.assertEqual(verdict.by_gradient(self.run_of(scene=scene)), (4.2, True))
+        self.assertEqual(verdict.by_gradient(self.run_of()), (4.5, False))
+
     def test_end_before_the_planned_one(self) -> None:
         """The sentence says why the run ended there."""
         reason = "the plug fills the caisson: it has reached the lid (refusal)"

@@ -38,6 +38,7 @@ from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_rando
 
 
 ROUNDS = 40  # of a bisection, which leave 1e-12 of a depth
+PARTS = (*np.linspace(0, 1, 25)[1:-1], 1 - 1e-6, 1)  # of a layer, asked one by one
 
 
 def bisect(
@@ -73,8 +74,8 @@ def self_weight_penetration(
     it sinks in deeper than deepest (m).
 
     resistance: by the embedment (N); weight: effective, V'; tops: of the layers (m),
-    from the mudline down. The resistance grows with depth inside a layer, but may fall
-    from layer to layer.
+    from the mudline down. The resistance may fall from layer to layer, and near the
+    bottom of one, so that each is asked at some depths and just above its bottom.
     """
 
     def stands(h: float) -> bool:
@@ -82,10 +83,13 @@ def self_weight_penetration(
 
     if stands(0):
         return 0.0
-    top = 0.0
+    above = top = 0.0
     for bottom in [*(x for x in tops if 0 < x < deepest), deepest]:
-        if stands(bottom):
-            return bisect(stands, top, bottom, ROUNDS)[1]
+        for part in PARTS:
+            below = top + part * (bottom - top)
+            if stands(below):
+                return bisect(stands, above, below, ROUNDS)[1]
+            above = below
         top = bottom
     return nan
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from caisson import curves, disk
-from caisson.evaluation import rest_of_run
+from caisson.evaluation import rest_of
 from caisson.plot import charts
 from caisson.plot.charts import BLUE, CAPTIONS, RED, Curve, bars, line
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
@@ -29,7 +29,7 @@ def is_drawn(curve: Curve) -> bool:
 def draw_rest(axes: Axes, run: Results, answers: methods.Answers) -> None:
     """Mark the penetrations by weight alone at zero suction."""
     marks = {answers.rest_by: (BLUE, list(answers.rest.values()))}
-    if (computed := rest_of_run(run.history)) is not None:
+    if (computed := rest_of(run)) is not None:
         marks["computed"] = "black", [computed]
     for name, (color, places) in marks.items():
         style = {"color": color, "markersize": 8, "clip_on": False, "zorder": 3}

@@ -16,7 +16,7 @@ from caisson.results import Results
 from caisson.design import reasons, suction_installation as installation
 from caisson.design.houlsby_byrne import STILL, UNDISTURBED
 from caisson.design.method import Forces
-from caisson.table import by_rows, text_of
+from caisson.table import by_rows, shown_text, text_of
 from caisson.template import say
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
@@ -326,14 +326,14 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     needs = {x.name: x.cases for x in suction_methods.answers_of(site, at).every}
 
     def pair(values: Iterable[Any], unit: str, none: str) -> str:
-        known = [float(x) * shown.factor(unit) for x in values]
-        texts = [text_of(x) or none for x in known]
+        texts = [shown_text(x, shown.factor(unit)) or none for x in values]
         return " to ".join(dict.fromkeys(texts)) or "-"
 
     def cells(
         name: str, rests: Iterable[Any], forces: Sequence[Any], needs: Iterable[Any]
     ) -> list[str]:
         plain = [max(float(x) - weight, 0.0) / area for x in forces]
+        rests = [0.0 if float(x) < 1e-3 * depth else x for x in rests]
         return [
             name,
             pair(rests, "m", f"below {shown.place(depth)}"),

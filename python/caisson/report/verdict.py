@@ -43,6 +43,8 @@ say = functools.partial(template.say, pull.SENTENCES)
 def by_gradient(run: Results) -> tuple[float, bool] | None:
     """Return the depth (m) where the exit gradient of the run itself becomes critical,
     and True, or that to which it does not, and False; None where it is not known."""
+    if (ended := outcome.end_by_program(run)) and ended[1] == outcome.PIPING_IN_RUN:
+        return ended[0], True
     found = outcome.whole_way(run)
     limit = found.limits.get(COMPUTED) if found else None
     if found is None or limit is None or not np.isfinite(limit).any():

@@ -282,8 +282,9 @@ def load_of(run: Results, found: Installation) -> Load | None:
 
 
 class Stop(NamedTuple):
-    """When the vessel stops, with numbers of a depth end: the allowable suction where
-    any is needed, at the first and the last such depth, with what governs there; the
+    """When the vessel stops, with numbers of a depth end: the allowable suction from
+    where the caisson rests on, at the first and the last depth and where it is least,
+    with what governs there; the
     heave that fills the skirt at the planned depth, and the one computed; the flow at
     which the exit gradient would be critical (m3/h), and the one computed; the tilt
     (degrees, 0 if it is not given). nan stands for what is not known."""
@@ -297,11 +298,24 @@ class Stop(NamedTuple):
 
 def stop_of(run: Results, found: Installation, planned: float) -> Stop:
     """Return when the vessel stops on the way to a planned depth."""
-    needed = np.flatnonzero((found.required > NOTHING) & np.isfinite(found.allowable))
-    rows = dict.fromkeys([int(needed[0]), int(needed[-1])]) if len(needed) else {}
+
+    def words(i: int) -> str:
+        name = found.governing(i)
+        return f"{found.named(name)}{found.remark(name, i)}"
+
+    known = np.isfinite(found.allowable)
+    needed = np.flatnonzero((found.required > NOTHING) & known)
+    rows = set[int]()
+    if len(needed):  # from the row above the depth of rest, where suction begins
+        at_rest = known & (found.depth <= (found.rest or 0.0))
+        first = (
+            min(needed[0], np.flatnonzero(at_rest)[-1]) if at_rest.any() else needed[0]
+        )
+        between = np.where(known, found.allowable, np.inf)[first : needed[-1] + 1]
+        rows = {int(first), int(first + between.argmin()), int(needed[-1])}
     suctions = [
-        (float(found.depth[i]), float(found.allowable[i]), found.governing_in_words(i))
-        for i in rows
+        (float(found.depth[i]), float(found.allowable[i]), words(i))
+        for i in sorted(rows)
     ]
     heave, end = (nan, nan), float(found.depth[-1])
     if len(found.room):

@@ -12,7 +12,8 @@ from caisson.verdict import suction_methods, theory
 from caisson.results import Results, Table
 from caisson.table import write_columns
 
-INTERVAL = 0.1  # m, between the rows
+INTERVAL, FEW = 0.1, 5  # m between the rows; where they are fewer, a tenth of it
+LEAST_INTERVAL = 1e-3  # m
 FORCES = ("tip_force_N", "inner_friction_N", "outer_friction_N", "total_force_N")
 SUCTION = "required_suction_Pa"
 PLUG = {
@@ -29,9 +30,11 @@ def goes_down(history: Table) -> bool:
 
 def depths_of(history: Table) -> np.ndarray:
     """Return the depths of design.csv, from the start of a run to its deepest."""
-    depth = history["penetration_m"]
-    n = int((depth.max() - depth[0]) / INTERVAL + 1e-6)
-    return np.round(depth[0] + INTERVAL * np.arange(n + 1), 9)
+    depth, interval = history["penetration_m"], INTERVAL
+    way = depth.max() - depth[0]
+    while 0 < way < FEW * interval and interval > LEAST_INTERVAL:
+        interval /= 10
+    return np.round(depth[0] + interval * np.arange(int(way / interval + 1e-6) + 1), 9)
 
 
 def forces_at(history: Table, depth: np.ndarray) -> Table:

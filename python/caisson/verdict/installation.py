@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of_run
+from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of
 from caisson.paths import INSTALLED
 from caisson.verdict import design, limits, theory
 from caisson.results import Results, Table
@@ -213,7 +213,7 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
     found.limits, found.factors = limits.limits_of(run, at), factors
     found.absent = limits.absent_of(run, found.limits)
     found.soft_below = theory.soft_below(theory.site_of(run), at)
-    found.rest = rest_of_run(run.history)
+    found.rest = rest_of(run)
     if scene.get("diameter_m"):
         if "seepage_flow_m3_s" in numbers:
             found.seepage = HOUR * np.maximum(numbers["seepage_flow_m3_s"], 0)

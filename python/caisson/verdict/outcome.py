@@ -23,6 +23,7 @@ REASONS = {
     PIPING: "piping by Houlsby & Byrne",
     BOILING: "boiling below the lid",
 }
+PIPING_IN_RUN = "piping"  # a reason of run.json
 IN_PROGRAM = {"boiling": REASONS[BOILING]}  # reasons of run.json by other names
 FINER = 21  # rows between two of the tables
 
@@ -140,7 +141,7 @@ def results_of_way_down(run: Results, way: Way) -> dict[str, Any]:
     total = curves.WITH_WATER if curves.WITH_WATER in way.columns else TOTAL
     found: dict[str, Any] = {DEPTH: deepest, "largest_force": largest(total)}
     if SUCTION in way.columns:
-        if (rest := evaluation.rest_of_run(run.history)) is not None:
+        if (rest := evaluation.rest_of(run)) is not None:
             found["rest_penetration_m"] = rest
         found["largest_suction"] = largest(SUCTION)
         found["margins"] = margins_of(run, way)
