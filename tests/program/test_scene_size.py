@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A scene that is far too large is refused at once, with the reason; of others the number
-of steps is known in advance."""
+"""A scene that is far too large is refused at once, with the reason; of others the
+number of steps is known in advance."""
 import re
 import resource
 import unittest
@@ -91,7 +91,7 @@ class Steps(ProgramTest):
         self.assertLess(abs(self.expected(scene) / made - 1), 0.25)
 
     def test_stiffer_layer(self) -> None:
-        """Waves of twice the speed take steps of half the length, over half of the way."""
+        """Waves of twice the speed take half as long steps, over half of the way."""
         entries: Entries = {
             "Time/Inertia tolerance": "none",
             "Time/Mass scaling": 25,
