@@ -2,6 +2,7 @@
 """The page of a scene before any run, against calculations by hand."""
 import json
 import re
+import shutil
 import tempfile
 import unittest
 from collections.abc import Callable
@@ -424,6 +425,15 @@ class Page(Scene):
         self.assertNotIn("Time/End time", self.text(run))
         self.assertIn("Computed: nothing yet", self.text(run))
         self.assertFalse((self.path / verdict.NAME).exists())
+
+    def test_low_and_high_in_one_soil(self) -> None:
+        """The page says that the soil is not varied, and does not where it is."""
+        words, run = "Both are of the methods, in one soil", self.scene(SAND)
+        self.assertIn(words, self.text(run))
+        other = self.path / "high"
+        shutil.copytree(self.path, other)
+        members = {"best": run, "high": by_hand.ByHand(other)}
+        self.assertNotIn(words, self.text(by_hand.band_of(members)))
 
     def test_six_curves(self) -> None:
         """At first sight, with what is behind the end of these."""

@@ -29,12 +29,17 @@ def outcome_of(member: Results, shown: Units, best: Verdict) -> str:
     return say("outcome", shown, member, found, verdict_of(member), best.reason)
 
 
+def n_soils(run: Results) -> int:
+    """Return in how many soils hand methods have looked at a scene; 0 of a run."""
+    return len({x.directory for x in run.estimates.values()}) if run.by_hand else 0
+
+
 def sentence_of(run: Results) -> str:
     """Return what low and high resistance come to; nothing without a band."""
     if not (best := verdict_of(run)).text:
         return ""
-    ends = ends_of(run).items()
-    return say("of_band", {e: outcome_of(x, run.shown, best) for e, x in ends})
+    ends = {e: outcome_of(x, run.shown, best) for e, x in ends_of(run).items()}
+    return say("of_band", ends, n_soils(run) == 1)
 
 
 def verdict_with(run: Results) -> Verdict:
@@ -96,6 +101,6 @@ def quarters_of(
     sides = [e for e in (LOW, BEST, HIGH) if e in required]
     names = " and ".join(member.directory.resolve().name for member in ends.values())
     if run.by_hand:
-        names = say("what_ends_are", len({x.directory for x in run.estimates.values()}))
+        names = say("what_ends_are", n_soils(run))
     of_all = [[f"{name}, {estimate}", *required[estimate]] for estimate in sides]
     return table | {"rows": of_all + rows, "ends": names}
