@@ -175,7 +175,9 @@ class Park(CommandTest):
         row = ROW.format("A", 20)
         text = f"{HEADS},spread\n{row},su 15%\n{ROW.format('B', 20)},\n"
         self.table.write_text(text, encoding="utf-8")
-        self.caisson(*self.words_of())
+        said, _ = self.caisson(*self.words_of())
+        self.assertRegex(said, r"A: about \d.* on one core for each of 3, 0 warnings:")
+        self.assertRegex(said, r"B: about \d.* on one core, 0 warnings:")
         self.assertEqual(self.calls(), ["A", "A_high", "A_low", "B"])
         self.assertEqual(sorted(self.overview()), ["A", "B"])
         self.table.write_text(f"{HEADS}\n{row}\n", encoding="utf-8")

@@ -73,15 +73,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     study_command.add_running_arguments(parser)
 
 
-def cost_of(name: str, file: Path) -> str:
-    """Return how long the run of a position takes and how many warnings it has, by what
-    `caisson suggest` has said of it."""
+def cost_of(name: str, scene: Path) -> str:
+    """Return how long the runs of a position take and how many warnings its scene has,
+    by what `caisson suggest` has said of it."""
+    file = scene.with_suffix(".txt")
+    runs = sum(member_of(scene, estimate).is_file() for estimate in ESTIMATES)
+    each = f" for each of {runs}" if runs > 1 else ""
     said = disk.read_text(file) if file.is_file() else ""
     time = re.search(r"^ *duration +([^:\n]+)", said, re.M)
     n = len(re.findall(r"^ *warning\b", said, re.I | re.M))
     warnings = "1 warning" if n == 1 else f"{n} warnings"
     how_long = time[1] if time else "duration not known"
-    return f"{name}: {how_long}, {warnings}: {short(file)}"
+    return f"{name}: {how_long}{each}, {warnings}: {short(file)}"
 
 
 def prepare(table: Path, error: int, folder: Path) -> list[Position]:
@@ -110,7 +113,7 @@ def prepare(table: Path, error: int, folder: Path) -> list[Position]:
     disk.write(known, json.dumps(records, indent=1))
     print(f"positions: {len(positions)}, of which new or changed: {len(new)}")
     for position in positions:
-        print(cost_of(position.name, scenes / f"{file_name(position.name)}.txt"))
+        print(cost_of(position.name, scenes / f"{file_name(position.name)}.prm"))
     return positions
 
 
