@@ -226,6 +226,24 @@ class Command(WithFiles):
         np.testing.assert_allclose(profile.resistance[-2:], [1e6, 4e6])
 
 
+class Formats(unittest.TestCase):
+    """What a text is, by its lines."""
+
+    def test_a_key_is_in_one_line(self) -> None:
+        """Blank lines before it, of which a file may have many, do not count."""
+        for lines, form in (
+            (["", "GROUP,SCPT"], "AGS 4"),
+            (["", ' "GROUP","SCPT"'], "AGS 4"),
+            (["**PROJ"], "AGS 4"),
+            (["", " <a>"], "XML"),
+            (["x", "", ' "# gefid = 1'], "GEF"),
+            (["#", "GEFID = 1"], ""),
+            (["x", "GROUP,SCPT"], ""),
+            (["x", "<a>"], ""),
+        ):
+            self.assertEqual(cone_file.format_of(lines), form, lines)
+
+
 class Ags(WithFiles):
     """AGS 4."""
 

@@ -30,7 +30,7 @@ ARCHIVE = b"PK\x03\x04"  # a workbook begins with
 FORMATS: dict[str, tuple[str, Callable[..., Table], str]] = {
     "AGS 4": (r'\A[\s"]*(GROUP"*,|\*\*)', cone_formats.ags_of_lines, "location"),
     "XML": (r"\A\s*<", cone_formats.bro, "location"),
-    "GEF": (r'^\s*"?#\s*(GEFID|COLUMNINFO)\b', cone_formats.gef, ""),
+    "GEF": (r'^[^\S\n]*"?#[^\S\n]*(GEFID|COLUMNINFO)\b', cone_formats.gef, ""),
 }
 
 
