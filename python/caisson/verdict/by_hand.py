@@ -198,25 +198,13 @@ class ByHand(Results):
     ) -> np.ndarray:
         """Return the required suction [n] (Pa), below 0 where the weight suffices."""
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
-        critical, _ = suction_methods.flow_above_clay(self.site, depth)
+        critical, piping = suction_methods.flow_above_clay(self.site, depth)
         found = suction_of(forces, self.weight, area, critical)
         if self.estimate != HIGH or self.byrne is None or self.sand_end < self.end:
             return found
-        return np.maximum(found, self.most_by_byrne(depth))
-
-    def most_by_byrne(self, depth: np.ndarray) -> np.ndarray:
-        """Return what Houlsby & Byrne require in their high case [n] (Pa), and the
-        suction of piping where none below it suffices."""
-        assert self.byrne is not None
-        case = self.byrne.by_name[suction_methods.CASES[suction_methods.HIGH]]
-        ratio, found = self.byrne.permeability_ratio, []
-        for h in map(float, depth):
-            needed = suction.required_suction(
-                case.caisson, self.weight, h, case.enhanced, ratio
-            )
-            piping = suction.piping_suction(case.caisson, h, ratio)
-            found.append(piping if np.isnan(needed) else needed)
-        return np.array(found)
+        case = self.byrne, suction_methods.HIGH, self.weight
+        most = np.array([suction_methods.by_byrne(*case, float(h)) for h in depth])
+        return np.maximum(found, np.where(np.isnan(most), piping, most))
 
     def heave_at(self, depth: np.ndarray) -> np.ndarray:
         """Return the heave of the plug [n] (m), by the wall that goes into it."""

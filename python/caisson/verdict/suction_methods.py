@@ -126,6 +126,14 @@ def by_cone(
     ]
 
 
+def by_byrne(byrne: HoulsbyByrne, column: str, weight: float, h: float) -> float:
+    """Return the suction (Pa) that Houlsby & Byrne require in the case of a column at
+    an embedment (m), nan where none below piping suffices."""
+    case = byrne.by_name[CASES[column]]
+    ratio = byrne.permeability_ratio
+    return installation.required_suction(case.caisson, weight, h, case.enhanced, ratio)
+
+
 def suctions_at(
     byrne: HoulsbyByrne, cones: Mapping[str, Method | None], weight: float, h: float
 ) -> dict[str, float]:
@@ -133,12 +141,7 @@ def suctions_at(
     ratio = byrne.permeability_ratio
     caisson, _ = byrne.by_name[UNDISTURBED]
     mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
-    required = {
-        column: installation.required_suction(
-            byrne.by_name[case].caisson, weight, h, byrne.by_name[case].enhanced, ratio
-        )
-        for column, case in CASES.items()
-    }
+    required = {column: by_byrne(byrne, column, weight, h) for column in CASES}
     for key, method in cones.items():
         required |= zip(CONE_COLUMNS[key], by_cone(method, caisson, weight, h))
     return required | {
