@@ -18,7 +18,7 @@ import argparse
 from math import inf
 from pathlib import Path
 
-from caisson import disk, suggest
+from caisson import disk, report, suggest
 from caisson.band import ESTIMATES, HIGH, LOW, member_of
 from caisson.commands import round_trip, run, run_several
 from caisson.design import cone_picture, cone_texts, interpretation
@@ -86,7 +86,7 @@ def write_scenes(options: argparse.Namespace, scene: Path) -> str:
     return suggest.write(options, [LOW, HIGH])  # which prints the table
 
 
-def report(files: list[Path]) -> None:
+def say_written(files: list[Path]) -> None:
     """Say what has been written."""
     for file in files:
         print(f"cpt: {short(file)}")
@@ -119,10 +119,10 @@ def main(options: argparse.Namespace) -> int:
             page = write_scenes(options, scene)
             files += [member_of(scene, estimate) for estimate in ESTIMATES]
     if page:
-        files.append(disk.write(suggest.page_of(scene), page))
-    report(files)
+        files.append(disk.write(report.beside(scene), page))
+    say_written(files)
     if options.round_trip:
-        report(cone.run())
+        say_written(cone.run())
     if not options.run:
         return 0
     return run_several.run_band([str(scene)], run.draw, run.reporting)

@@ -4,16 +4,21 @@ the program warned of. It needs no other file and no network. Until the run ends
 page reloads itself, and `caisson run` renews it. Of a scene, FILE.prm, it is FILE.html
 beside it, by hand methods, before any run."""
 import argparse
+import functools
 import shutil
 import subprocess
 from math import inf
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from caisson import disk, run_error_bar
 from caisson.band import SCENE
 from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, adopt_what_is_beside, draw, keep_methods
 from caisson.results import Results, ResultsError
+
+if TYPE_CHECKING:
+    from caisson.verdict.installation import Rate
 
 NAME = "report.html"
 OF_A_RUN = ("jacked", "error_bar", "author", "checked")  # options
@@ -24,22 +29,30 @@ def write(directory: Path, rate: float | None = None) -> Path:
     """Write the report of a run, with a pump for a rate of penetration (m/h), or an
     assumed one; return its path. Raises ResultsError."""
     from caisson.report import page, verdict
-    from caisson.verdict.installation import Rate
 
-    check_rate(rate)
+    pump = rate_of(rate)
     if not directory.is_dir():
         raise ResultsError(f"no directory {directory}")
     adopt_what_is_beside(directory)
     verdict.keep(Results(directory))
-    text = page.html(Results(directory), Rate() if rate is None else Rate(rate, False))
+    text = page.html(Results(directory), pump)
     return disk.write(directory / NAME, text)
 
 
-def check_rate(rate: float | None) -> None:
-    """Refuse what is no rate of penetration (m/h). Raises ResultsError."""
+def beside(scene: Path) -> Path:
+    """Return the page of a scene before any run."""
+    return scene.with_suffix(".html")
+
+
+def rate_of(rate: float | None) -> "Rate":
+    """Return the rate of penetration (m/h) that is given, or an assumed one. Raises
+    ResultsError where it is none."""
+    from caisson.verdict.installation import Rate
+
     if rate is not None and not (isinstance(rate, (int, float)) and 0 < rate < inf):
         given = f"{rate:g}" if isinstance(rate, (int, float)) else repr(rate)
         raise ResultsError(f"--rate {given}: give m/h above 0")
+    return Rate() if rate is None else Rate(rate, False)
 
 
 def find_browser() -> str:
@@ -106,21 +119,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def write_before(scene: Path, options: argparse.Namespace) -> None:
     """Write the page of a scene before any run. Raises ResultsError."""
     from caisson.report import before
-    from caisson.verdict.installation import Rate
 
     if unused := [x for x in OF_A_RUN if getattr(options, x)]:
         name = unused[0].replace("_", "-")
         raise ResultsError(f"{scene} has no run yet: leave --{name} out")
-    rate = options.rate
-    path = before.write(
-        scene,
-        Rate() if rate is None else Rate(rate, False),
-        lambda directory: keep_methods(options, directory),
-    )
-    if path is not None:
-        print(f"report: {path}")
-        if options.pdf:
-            print(f"report: {print_pdf(path)}")
+    rate = rate_of(options.rate)
+    text = before.html(scene, rate, functools.partial(keep_methods, options))
+    if text:
+        say_written(disk.write(beside(scene), text), options.pdf)
+
+
+def say_written(path: Path, pdf: bool) -> None:
+    """Say where a page is, and print it to a file if that is wanted."""
+    print(f"report: {path}")
+    if pdf:
+        print(f"report: {print_pdf(path)}")
 
 
 def main(options: argparse.Namespace) -> int:
@@ -128,7 +141,7 @@ def main(options: argparse.Namespace) -> int:
     from caisson.report import relief, trace
 
     def write_one(directory: Path) -> None:
-        check_rate(options.rate)
+        rate_of(options.rate)  # before anything is kept
         if directory.suffix == SCENE and not directory.is_dir():
             return write_before(directory, options)
         if keep_methods(options, directory):
@@ -138,8 +151,6 @@ def main(options: argparse.Namespace) -> int:
         if options.error_bar is not None:
             run_error_bar.adopt(directory, options.error_bar)
         trace.keep(directory, options.author, options.checked)
-        print(f"report: {(path := write(directory, options.rate))}")
-        if options.pdf:
-            print(f"report: {print_pdf(path)}")
+        say_written(write(directory, options.rate), options.pdf)
 
     return for_each("report", options.directories, write_one)

@@ -2,10 +2,9 @@
 """The page of a scene before any run, by hand methods: FILE.html beside FILE.prm."""
 import re
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from caisson import disk
 from caisson.band import BEST, ESTIMATES, member_of
 from caisson.design import cone as cone_test
 from caisson.report import low_and_high, page, verdict
@@ -26,11 +25,15 @@ def seconds_of(cost: str) -> float:
     return FEW_STEPS * float(step[1]) if step else 0.0
 
 
-def to_come(scene: Path, cost: str) -> dict[str, str]:
+def to_come(scene: Path, cost: str, estimates: Sequence[str]) -> dict[str, str]:
     """Return what the page says of the run that is to come. cost: what the program says
-    of the scene."""
+    of the scene; estimates: of which there are scenes beside it."""
     duration = DURATION.search(cost)
-    return {"scene_file": str(scene), "cost": duration[1] if duration else ""}
+    return {
+        "scene_file": str(scene),
+        "cost": duration[1] if duration else "",
+        "next": command_for(scene, estimates),
+    }
 
 
 def page_of(members: Mapping[str, by_hand.ByHand], rate: Rate = Rate()) -> str:
@@ -48,19 +51,18 @@ def page_of(members: Mapping[str, by_hand.ByHand], rate: Rate = Rate()) -> str:
     return found
 
 
-def write(scene: Path, rate: Rate, prepare: Callable[[Path], object]) -> Path | None:
-    """Write the page of a scene as it is now, with those of low and high resistance
-    beside it; return its path, None where no hand method knows the ground. prepare:
-    keeps what is given of the methods with the directory of a step. Raises ResultsError
-    with what the program says where it refuses a scene."""
+def html(scene: Path, rate: Rate, prepare: Callable[[Path], object]) -> str:
+    """Return the page of a scene as it is now, with those of low and high resistance
+    beside it, as page_of() does. prepare: keeps what is given of the methods with the
+    directory of a step. Raises ResultsError with what the program says where it refuses
+    a scene."""
     with tempfile.TemporaryDirectory() as folder:
         members = dict[str, by_hand.ByHand]()
         try:
             cost = query([str(scene), "--validate"])
             files = {x: member_of(scene, x) for x in ESTIMATES}
             files = {x: file for x, file in files.items() if file.is_file()}
-            facts = to_come(scene, cost)
-            facts["next"] = command_for(scene, [x for x in files if x != BEST])
+            facts = to_come(scene, cost, [x for x in files if x != BEST])
             for estimate, file in files.items():
                 directory = Path(folder, estimate)
                 by_hand.step(file, directory, seconds_of(cost))
@@ -70,5 +72,4 @@ def write(scene: Path, rate: Rate, prepare: Callable[[Path], object]) -> Path | 
         for member in members.values():
             cone_test.adopt_beside(member.directory, scene)
             prepare(member.directory)
-        text = page_of(members, rate)
-    return disk.write(scene.with_suffix(".html"), text) if text else None
+        return page_of(members, rate)

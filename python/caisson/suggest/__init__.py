@@ -37,7 +37,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from caisson import density_law, disk
+from caisson import density_law, disk, report
 from caisson.band import BEST, HIGH, LOW, member_of
 from caisson.design import cone as cone_test
 from caisson.design import cone_file, cone_options, cone_texts, interpretation
@@ -48,7 +48,7 @@ from caisson.runner import command_for, query
 from caisson.suggest import clay, cone, low_and_high, sand, sizes, walls
 from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
 from caisson.suggest.soil import layers_of
-from caisson.suggest.trial import by_hand, cost_of, page_of
+from caisson.suggest.trial import by_hand, cost_of
 from caisson.design.interpretation import Interpretation
 from caisson.design.quantity import angle_of_friction, length, number
 from caisson.shown import units_for
@@ -177,7 +177,7 @@ def check_files(options: argparse.Namespace, estimates: Sequence[str]) -> None:
     if options.study and options.study.suffix != ".toml":
         raise SuggestError(f"--study {options.study}: its name must end with .toml")
     files: list[Path] = [f for f in (options.file, options.study) if f]
-    files.append(page_of(options.file))
+    files.append(report.beside(options.file))
     files += [cone_test.beside(options.file)] * bool(options.cpt)
     files += [member_of(options.file, estimate) for estimate in estimates]
     for file in files:
@@ -550,7 +550,7 @@ def main(options: argparse.Namespace) -> int:
     study = "caisson study" if INSTALLED else "scripts/caisson study"
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
     if page:
-        files.append(disk.write(page_of(options.file), page))
+        files.append(disk.write(report.beside(options.file), page))
     run = command_for(options.file, estimates)
     print(f"written: {', '.join(map(str, files))}; next: {run}")
     way = command_for(options.file, [], f"--error {options.error}%")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from caisson import disk
 from caisson.design import cone as cone_test
-from caisson.runner import RunError, command_for, query
+from caisson.runner import RunError, query
 from caisson.suggest.entry import SuggestError
 
 FAILS = "the first steps of the run fail"  # of --validate
@@ -45,11 +45,6 @@ def cost_of(file: Path, text: str) -> str:
     return said
 
 
-def page_of(scene: Path) -> Path:
-    """Return the page of a scene before any run."""
-    return scene.with_suffix(".html")
-
-
 def by_hand(
     file: Path,
     texts: Mapping[str, str],
@@ -64,8 +59,7 @@ def by_hand(
     from caisson.report import before
     from caisson.verdict import by_hand as methods
 
-    seconds, to_come = before.seconds_of(cost), before.to_come(file, cost)
-    to_come["next"] = command_for(file, estimates)
+    seconds, facts = before.seconds_of(cost), before.to_come(file, cost, estimates)
 
     def made(estimate: str) -> methods.ByHand:
         directory = Path(folder, estimate)
@@ -81,7 +75,7 @@ def by_hand(
             ) from error
         if test:
             disk.keep(directory / cone_test.NAME, test)
-        return methods.ByHand(directory, estimate, to_come)
+        return methods.ByHand(directory, estimate, facts)
 
     with tempfile.TemporaryDirectory() as folder:
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
