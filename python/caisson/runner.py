@@ -92,6 +92,9 @@ def environment() -> dict[str, str]:
     return {**defaults, **os.environ}
 
 
+FAILS = "the first steps of the run fail"  # what --validate warns of
+
+
 def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     """Return what the program says without a run, as with --validate. Raises RunError
     with that where it refuses the input."""

@@ -9,13 +9,15 @@ from collections.abc import Callable
 from math import atan, exp, pi, radians, tan
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_run
 
 from caisson.evaluation import GRADIENT, rest_of_run
-from caisson.report import methods, page, verdict
+from caisson.report import before, methods, page, verdict
 from caisson.results import Results, ResultsError
+from caisson.runner import FAILS
 from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
 from caisson.verdict.installation import Rate
 
@@ -469,6 +471,12 @@ class Page(Scene):
         run = self.scene({**SAND, "law": "Modified Cam clay"})
         with self.assertRaisesRegex(ResultsError, "layer 1 is Modified Cam clay"):
             page.html(run, Rate())
+
+    @mock.patch("caisson.report.before.query", return_value=f"warning: {FAILS}: why")
+    def test_scene_that_does_not_run(self, _: mock.Mock) -> None:
+        """It has no page, and what the program says is the message."""
+        with self.assertRaisesRegex(ResultsError, f"{FAILS}: why"):
+            before.html(self.path / "a.prm", Rate(), lambda _: None)
 
     def test_run_that_has_hardly_begun(self) -> None:
         """Its page is that of the scene, until the caisson goes down."""

@@ -9,7 +9,7 @@ from caisson.band import BEST, ESTIMATES, member_of
 from caisson.design import cone as cone_test
 from caisson.report import low_and_high, page, verdict
 from caisson.results import ResultsError
-from caisson.runner import RunError, command_for, query
+from caisson.runner import FAILS, RunError, command_for, query
 from caisson.verdict import by_hand
 from caisson.verdict.installation import Rate
 
@@ -60,6 +60,8 @@ def html(scene: Path, rate: Rate, prepare: Callable[[Path], object]) -> str:
         members = dict[str, by_hand.ByHand]()
         try:
             cost = query([str(scene), "--validate"])
+            if FAILS in cost:
+                raise RunError(cost)
             files = {x: member_of(scene, x) for x in ESTIMATES}
             files = {x: file for x, file in files.items() if file.is_file()}
             facts = to_come(scene, cost, [x for x in files if x != BEST])

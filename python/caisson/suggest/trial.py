@@ -9,10 +9,8 @@ from pathlib import Path
 
 from caisson import disk
 from caisson.design import cone as cone_test
-from caisson.runner import RunError, query
+from caisson.runner import FAILS, RunError, query
 from caisson.suggest.entry import SuggestError
-
-FAILS = "the first steps of the run fail"  # of --validate
 
 
 def said_of(text: str, file: Path, copy: Path, said: str) -> str:
