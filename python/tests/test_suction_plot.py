@@ -388,6 +388,14 @@ class MadeUpRun(unittest.TestCase):
         handles, labels = axes.get_legend_handles_labels()
         return dict(zip(labels, handles))
 
+    def test_no_line_beyond_the_axis_in_the_legend(self) -> None:
+        """A sentence has such a limit; the mark of the rest stands for its line, and
+        the gray area for what is not feasible."""
+        found = self.drawn(SITE)
+        self.assertIn(limits.PIPING, found)
+        self.assertNotIn("water boils", found)
+        self.assertFalse([x for x in found if "rests by" in x or "not feas" in x])
+
     def test_no_method_under_the_name_of_another(self) -> None:
         """Senders and Randolph take their forces from a cone: without one, the cone
         is assumed, and everything that rests on it says so."""

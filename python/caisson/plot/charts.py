@@ -164,6 +164,8 @@ def draw(axes: Axes, shown: Iterable[Curve]) -> None:
             np.array(curve.get(k, curve["x"]), dtype=float) for k in ("x", "to", "y")
         )
         color, label = curve["color"], curve["label"]
+        if color == GRAY:  # the area says what that is
+            label = None
         if "to" not in curve:
             width = 6 if curve.get("full") else 1.8 if curve.get("thick") else 1.0
             style = {"linewidth": width, "solid_capstyle": "butt"}
@@ -352,14 +354,24 @@ def suction_curves(
     return shown + own(label, "black", required, depth, end)
 
 
+def limits_beyond(
+    found: Installation | None, shown: list[Curve]
+) -> dict[str, tuple[float, float]]:
+    """Return the least and the largest value (kPa) of the limits that are beyond the
+    axis of the curves, by their names."""
+    end, beyond = axis_end(shown), dict[str, tuple[float, float]]()
+    for name, values in found.limits.items() if found else ():
+        known = values[np.isfinite(values)]
+        if name != LID and len(known) and known.min() > end:
+            assert found
+            beyond[found.named(name)] = float(known.min()), float(known.max())
+    return beyond
+
+
 def beyond_the_chart(found: Installation, shown: list[Curve], bottom: float) -> str:
     """Return which limits are beyond the axis of the curves, or are none, and the depth
     of the lid where it is below a bottom (m), in sentences."""
-    beyond, factor = [], found.shown.factor("kPa")
-    end = factor * axis_end(shown)
-    for name, values in found.limits.items():
-        known = factor * values[np.isfinite(values)]
-        if name != LID and len(known) and known.min() > end:
-            beyond.append((found.named(name), (known.min(), known.max())))
+    factor, limits = found.shown.factor("kPa"), limits_beyond(found, shown)
+    beyond = [(name, (factor * a, factor * b)) for name, (a, b) in limits.items()]
     lid = found.lid if found.lid is not None and found.lid > bottom else None
     return say(CAPTIONS, "beyond", found, beyond, lid)

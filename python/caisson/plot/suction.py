@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Suction, exit gradient and heave of the plug over penetration, depth downward."""
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +16,8 @@ from caisson.plot.small import fade, in_units, legend_below, over_depth, with_no
 from caisson.results import Results
 from caisson.template import say_rows
 from caisson.verdict import suction_methods as methods, theory
-from caisson.verdict.installation import Installation
-from caisson.verdict.outcome import depth_of, whole_way
+from caisson.verdict.installation import Installation, Rate, installation_of
+from caisson.verdict.outcome import depth_of
 
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
 
@@ -43,12 +44,13 @@ def draw_suction(
     """Draw the curves of the page, and the suction that acts; return which limits are
     out of the range."""
     history, end = run.history, depth_of(run)
-    found = found if found and found.has_suction else None
+    # draw_rest() marks where the caisson rests
+    found = replace(found, rest=None) if found and found.has_suction else None
     shown = charts.suction_curves(run, found, end, answers)
     applied = history["suction_Pa"] / 1e3
     shown.append(line("applied, computed", "black", applied, history["penetration_m"]))
-    most = charts.axis_end(shown) or 1e-3
-    charts.draw(axes, filter(is_drawn, shown))
+    most, beyond = charts.axis_end(shown) or 1e-3, charts.limits_beyond(found, shown)
+    charts.draw(axes, [x for x in shown if is_drawn(x) and x["label"] not in beyond])
     axes.set_xlim(-0.02 * most, most)
     draw_rest(axes, run, answers)
     axes.set_xlabel("suction (kPa)")
@@ -136,7 +138,8 @@ def draw(directory: Path, run: Results) -> list[Path]:
     figure = Figure(figsize=(14 if seeps else 10, 7.5))
     panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
-    beyond = draw_suction(panels[0], run, whole_way(run), answers)
+    at = np.linspace(max(float(depth[0]), 0.0), deepest, 60)
+    beyond = draw_suction(panels[0], run, installation_of(run, Rate(), at), answers)
     if seeps:
         draw_gradients(panels[1], run)
     draw_heave(panels[-1], run)
