@@ -167,6 +167,10 @@ class Park(CommandTest):
             "set Title = North 1, a caisson of 4 m with a wall of 40 mm", text
         )
         self.assertRegex(text, r"Submerged weight += 60000")
+        for damage in ("[]", "null", "3", '{"North 1": 3}', "{"):
+            (self.out / "positions.json").write_text(damage, encoding="utf-8")
+            said, _ = self.caisson(*self.words_of("--check"))
+            self.assertIn("positions: 1, of which new or changed: 1", said)
         self.assertEqual(self.calls(), [])
 
     @mock.patch("caisson.plot.draw")  # which another test looks at

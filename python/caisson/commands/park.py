@@ -98,8 +98,8 @@ def prepare(table: Path, error: int, folder: Path) -> list[Position]:
     for name in (KNOWN, PAGE, TABLE, PICTURE):
         disk.refuse_input(folder / name)
     try:
-        before = json.loads(disk.read_text(known))
-    except (InputError, ValueError):  # there is none, or a broken one
+        before = dict(json.loads(disk.read_text(known)))
+    except (InputError, *disk.DAMAGE):  # there is none, or a broken one
         before = {}
     records = {p.name: park_rows.record_of(table, p) for p in positions}
     scenes = folder / "scenes"
@@ -285,9 +285,8 @@ def evaluate(title: str, runs: Sequence[StudyRun], folder: Path, minutes: float)
 def main(options: argparse.Namespace) -> int:
     """Write scenes, run what is missing, and write the overview."""
     folder: Path = options.out or RESULTS / "park" / file_name(options.positions.stem)
-    begin, positions = time.monotonic(), prepare(
-        options.positions, options.error, folder
-    )
+    begin = time.monotonic()
+    positions = prepare(options.positions, options.error, folder)
     if options.check:
         print(f"park: {short(folder / 'scenes')}")
         return 0
