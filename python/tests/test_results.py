@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from caisson import plot, table, units, vtu
-from caisson.verdict import key_numbers
 from caisson.plot import fields, forces
 from caisson.plot.cells import CellMeans, cell_of
 from caisson.plot.fields import boundary_now, chosen, tops_of, window_of
 from caisson.plot.walls import draw as draw_walls
 from caisson.plot.walls import shown_times
 from caisson.results import Results, ResultsError, read_table
+from lab.studies import forces as forces_study
 
 TINY = Path(__file__).resolve().parent / "tiny_run"
 PICTURES = [
@@ -141,7 +141,7 @@ class Tables(Directory):
 
 
 class Pictures(Directory):
-    """scripts/caisson plot and scripts/caisson compare --values."""
+    """scripts/caisson plot, and the numbers of a study of forces."""
 
     def test_tiny_run(self) -> None:
         path = Path(shutil.copytree(TINY, self.path / "run"))
@@ -301,7 +301,7 @@ class Pictures(Directory):
         self.assertEqual(units.unit_of("max_speed_m_s"), "m/s")
 
     def test_curve(self) -> None:
-        lines = list(key_numbers.describe(TINY, [1.0, 9.0]))
+        lines = list(forces_study.describe(TINY, [1.0, 9.0]))
         self.assertRegex(lines[1], r"1\.00 m: tip +\d+\.\d  friction +\d+\.\d kN")
         self.assertRegex(lines[2], r"9\.00 m: not reached \(ends at \d\.\d\d m\)")
         self.assertEqual(len(lines), 5)
@@ -316,7 +316,7 @@ class Pictures(Directory):
             "exit_gradient_axis": np.zeros(len(depth)),
             "critical_gradient": np.full(len(depth), 0.8),
         }
-        (words,) = key_numbers.suction_words(history, np.array([2.0]))
+        (words,) = forces_study.suction_words(history, np.array([2.0]))
         self.assertIn("suction   2.0 kPa, margin to piping  75 %", words)
 
 

@@ -68,7 +68,7 @@ def main(options: argparse.Namespace) -> int:
     """Compare the runs, and say of two of them what differs."""
     status = comparison.main(options)
     directories = comparison.directories_of(options.words)
-    if not options.values and len(directories) == 2:
+    if len(directories) == 2:
         for line in differences([*map(Results, directories)]):
             print(line)
     return status

@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import curves, disk
-from caisson.verdict import key_numbers
 from caisson.verdict import design
 from caisson.paths import distinct_ends, seen
 from caisson.plot.small import in_units, legend_below, over_depth
@@ -162,10 +161,7 @@ def columns_of(histories: Histories, interval: float) -> Table:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson compare`."""
-    parser.usage = (
-        "%(prog)s [--interval M] [PICTURE.png] DIR...\n"
-        "       %(prog)s --values [--at M,M...] DIR..."
-    )
+    parser.usage = "%(prog)s [--interval M] [PICTURE.png] DIR..."
     text = (
         "the output directory of a run, whose name is its label; before the first one"
         " the picture may stand, default comparison_DIR_DIR.png beside the first run;"
@@ -177,18 +173,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--interval", type=length, metavar="M", help=text)
     text = "replace picture and .csv file if they are there"
     parser.add_argument("--overwrite", action="store_true", help=text)
-    text = "print forces at round depths and the roughness of curves, and draw nothing"
-    parser.add_argument("--values", action="store_true", help=text)
-    text = "depths of --values, in m"
-    parser.add_argument(
-        "--at", type=key_numbers.depths, default=key_numbers.DEPTHS, help=text
-    )
 
 
 def main(options: argparse.Namespace) -> int:
-    """Draw the picture and write the file, or print."""
-    if options.values:
-        return key_numbers.print_all(options.words, options.at)
+    """Draw the picture and write the file."""
     directories = directories_of(options.words)
     picture = options.words[0] if directories != options.words else None
     if not directories:

@@ -407,8 +407,8 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     tables = beside(title, {"depth (m)": at}, computed, forces, run.shown)
     leaves = ""
     if with_suction:
-        columns, rest = ({}, None) if run.by_hand else relief.table_of(run, at)
-        leaves = say(SENTENCES, "suction_leaves", run.shown, rest) if columns else ""
+        columns = relief.table_of(run, at)
+        leaves = say(SENTENCES, "suction_leaves") if columns else ""
         title = "What suction leaves of the forces"
         left = [table(title, columns, run.shown)] if columns else []
         tables = [*suction_tables(run, at, site, answers), *left, *tables]
