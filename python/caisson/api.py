@@ -21,7 +21,7 @@ from caisson.command_line import Parser, paths_in
 from caisson.disk import InputError
 from caisson.verdict.loaded import LoadedRun, load
 from caisson.paths import PROGRAM, scene_or_study
-from caisson.runner import Entries, Run, RunError
+from caisson.runner import Entries, Run, RunError, refuse_missing
 
 
 class Strict(Parser):
@@ -204,11 +204,7 @@ def run(
                           output_directory="results/quick")
         run.outcome["largest_force"]
     """
-    if not os.access(program, os.X_OK):
-        raise RunError(
-            f"no program {program}: `scripts/build` builds it, and the environment"
-            " variable CAISSON_MPM_PROGRAM names another one"
-        )
+    refuse_missing(Path(program))
     if ranks is not None and ranks < 1:
         raise RunError(f"ranks is {ranks}: a run needs 1 or more")
     if (ranks or 1) > 1 and not cores.can_start_ranks():

@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import tempfile
 import threading
@@ -92,12 +93,22 @@ def environment() -> dict[str, str]:
     return {**defaults, **os.environ}
 
 
+def refuse_missing(program: Path) -> None:
+    """Refuse a program that is not there. Raises RunError."""
+    if shutil.which(program) is None:
+        raise RunError(
+            f"no program {program}: `scripts/build` builds it, and the environment"
+            " variable CAISSON_MPM_PROGRAM names another one"
+        )
+
+
 FAILS = "the first steps of the run fail"  # what --validate warns of
 
 
 def query(arguments: Sequence[str], program: Path = PROGRAM) -> str:
     """Return what the program says without a run, as with --validate. Raises RunError
     with that where it refuses the input."""
+    refuse_missing(program)
     for path in filter(Path.is_file, map(Path, arguments)):
         disk.note_reading(path)
     done = subprocess.run(
@@ -180,6 +191,7 @@ class Run:
     RECORD = "run_key.json"
     CHECKPOINT = "checkpoint.info"
     BESIDE = ("Output/Directory", "Installation/Phases")  # the result is the same
+    BEFORE = "Installation/Directory"
 
     def __init__(
         self,
@@ -245,6 +257,9 @@ class Run:
         """A hash of what the result depends on. Raises RunError where the program
         refuses the input."""
         entries = {k: v for k, v in self.in_effect.items() if k not in self.BESIDE}
+        if before := entries.get(self.BEFORE):  # both may be moved together
+            place = (WORK / before).resolve()
+            entries[self.BEFORE] = os.path.relpath(place, self.directory.resolve())
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -255,12 +270,41 @@ class Run:
     def completion_record(self) -> dict[str, Any] | None:
         """Return what a finished run has left: key, entries, status, wall_s and
         cpu_s. None where there is none, or a broken one."""
-        try:
-            found = json.loads((self.directory / self.RECORD).read_text("utf-8"))
-        except (OSError, ValueError, RecursionError):
-            return None
+        found = self.left(self.RECORD)
         keys = {"key", "entries", "status", "wall_s", "cpu_s"}
-        return found if isinstance(found, dict) and keys <= set(found) else None
+        return found if keys <= set(found) else self.record_of_user()
+
+    def record_of_user(self) -> dict[str, Any] | None:
+        """Return the record of a finished run of these entries that the user has called
+        himself, with this program; None where there is none."""
+        summary = self.left("run.json")
+        parts = [summary.get(name) for name in ("defaults", "entries")]
+        known = {
+            k: v for part in parts if isinstance(part, dict) for k, v in part.items()
+        }
+        known = {k: v for k, v in known.items() if k not in self.BESIDE}
+        if summary.get("status") != "finished" or not known:
+            return None
+        try:
+            is_same = known.items() <= self.in_effect.items()
+            written = (self.directory / "run.json").stat().st_mtime
+            if not is_same or written < self.program.stat().st_mtime:
+                return None
+        except (RunError, OSError, TypeError):
+            return None
+        seconds = summary.get("wall_time_s", 0.0)
+        times = {"wall_s": seconds, "cpu_s": seconds}
+        entries = self.entry_texts()
+        return {"key": self.key, "entries": entries, "status": Status.SUCCESS} | times
+
+    def left(self, name: str) -> dict[str, Any]:
+        """Return what a file of JSON in the directory holds, nothing of a broken
+        one."""
+        try:
+            found = json.loads((self.directory / name).read_text("utf-8"))
+        except (OSError, ValueError, RecursionError):
+            return {}
+        return found if isinstance(found, dict) else {}
 
     def share_done(self, elapsed: float) -> float:
         """Return what part of the time of a run is over after so many seconds, by the

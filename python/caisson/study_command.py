@@ -153,6 +153,8 @@ def run_missing(
         return None
     to_do = survey(runs, arguments.again, resumes=is_own, asks_all=is_own)
     refuse(to_do)
+    if is_own and any(run.has_phases for run in to_do):
+        print("note: only caisson run computes the phases of Installation/Phases")
     if arguments.part:
         number, of = arguments.part
         runs = runs[number - 1 :: of]

@@ -483,7 +483,7 @@ class Part(Run):
 
     def __init__(self, directory: Path, status: Status | None) -> None:
         self.directory, self.status, self.calls = directory, status, 0
-        self.ranks, self.restarts = 1, False
+        self.ranks, self.restarts, self.in_effect = 1, False, {}
         self.record: dict[str, Any] | None = None
 
     def is_complete(self) -> bool:

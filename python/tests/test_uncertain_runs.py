@@ -124,7 +124,7 @@ class Commands(WithFiles):
         self.assertEqual(len(self.calls()), 4)
         status, said = self.study("--evaluate", "--program", "/nowhere")
         self.assertEqual(status, 1, "the base is read from the scene")
-        self.assertIn("/nowhere cannot be run", said)
+        self.assertIn("no program /nowhere", said)
         status, said = self.study("--evaluate")
         self.assertEqual(status, 0)
         self.assertIn("148.5 kN (-6 %) at 28", said)

@@ -3,6 +3,7 @@
 """An installation and what follows it as one scene: Installation/Phases."""
 import html
 import json
+import shutil
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -74,11 +75,56 @@ class Phases(ProgramTest):
 
         record = path / FOLDER / "run_key.json"
         before = json.loads(record.read_text(encoding="utf-8"))
-        record.unlink()  # as of a run that was stopped
+        record.unlink()
+        told = path / FOLDER / "run.json"
+        text = told.read_text(encoding="utf-8")
+        told.write_text(text.replace('"finished"', '"stopped"'), encoding="utf-8")
         text = self.run_phases(SUCCESS, path, **{phases.ENTRY: "retrieval to 0.52"})
         self.assertIn(f"{FOLDER}: goes on from its checkpoint", text)
         after = json.loads(record.read_text(encoding="utf-8"))
         self.assertEqual(after["key"], before["key"])
+
+    def test_after_an_installation(self) -> None:
+        """An installation that the user has run is not repeated, but that of another
+        velocity is. A folder that was moved keeps what is complete in it."""
+        path = self.directory()
+        self.run_phases(SUCCESS, path, **{phases.ENTRY: ""})
+        time = summary(path)["written"]
+        text = self.run_phases(SUCCESS, path)
+        self.assertEqual(text.count("complete, and not repeated"), 1)
+        self.assertEqual(summary(path)["written"], time)
+        moved = path.with_name(f"{path.name}_moved")
+        shutil.rmtree(moved, ignore_errors=True)
+        path.rename(moved)
+        text = self.run_phases(SUCCESS, moved)
+        self.assertEqual(text.count("complete, and not repeated"), 2, text)
+        text = self.run_phases(SUCCESS, moved, **{"Rigid body/Velocity": "0.2"})
+        self.assertEqual(text.count("complete, and not repeated"), 0, text)
+
+    def test_band(self) -> None:
+        """The best scene of a band has phases. They are refused before anything is run,
+        repeated after another installation, and kept otherwise."""
+        path = self.directory()
+        path.mkdir(parents=True)
+        for name in ("anchor", "anchor_low"):
+            text = Path(scene("jack")).read_text(encoding="utf-8")
+            (path / f"{name}.prm").write_text(text, encoding="utf-8")
+        entries = {**SHORT, "Output/Directory": path / "results"}
+        call = ["run", "--band", path / "anchor.prm"]
+
+        def run(text: str, *words: str) -> str:
+            done = caisson(*call, *set_options(entries | {phases.ENTRY: text}), *words)
+            return done.stdout + done.stderr
+
+        self.assertIn("'pul' is no phase", run("pul"))
+        self.assertFalse((path / "results").exists())
+        text = run("retrieval to 0.51 m")
+        self.assertEqual(text.count("complete, and not repeated"), 1, text)
+        self.assertTrue((path / "results" / FOLDER / "history.csv").is_file(), text)
+        text = run("retrieval to 0.51 m")
+        self.assertEqual(text.count("complete, and not repeated"), 4, text)
+        text = run("retrieval to 0.51 m", "--overwrite")
+        self.assertEqual(text.count("complete, and not repeated"), 1, text)
 
     def test_refused_before_a_run(self) -> None:
         """One line, and no folder."""
@@ -106,8 +152,8 @@ class Phases(ProgramTest):
         self.assertNotIn("no pictures", text)
         (path / FOLDER).unlink()
         self.run_phases(SUCCESS, path)
-        (path / FOLDER / "run_key.json").unlink()
-        (path / FOLDER / "checkpoint.info").unlink()
+        for name in ("run_key.json", "run.json", "checkpoint.info"):
+            (path / FOLDER / name).unlink()
         (path / "checkpoint.info").unlink()
         text = self.run_phases(FAILURE, path)
         self.assertNotIn("Retrieved", text)

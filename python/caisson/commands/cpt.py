@@ -20,7 +20,7 @@ from pathlib import Path
 
 from caisson import disk, report, suggest
 from caisson.band import ESTIMATES, HIGH, LOW, member_of
-from caisson.commands import round_trip, run, run_several
+from caisson.commands import round_trip, run
 from caisson.design import cone_picture, cone_texts, interpretation
 from caisson.paths import RESULTS, scene_or_study, seen, short
 from caisson.study import file_name
@@ -125,4 +125,4 @@ def main(options: argparse.Namespace) -> int:
         say_written(cone.run())
     if not options.run:
         return 0
-    return run_several.run_band([str(scene)], run.draw, run.reporting)
+    return run.run_band([str(scene)])

@@ -34,6 +34,7 @@ from caisson.runner import (
     environment,
     mpi_command,
     read_parameters,
+    refuse_missing,
     size_in,
 )
 
@@ -248,8 +249,23 @@ def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
     return wait_for(process)
 
 
+def run_band(arguments: list[str]) -> int:
+    """Run a band, then the phases of its best scene, if it has some, which are refused
+    before anything is run. Return the exit status."""
+    entries, chain = entries_of(arguments), None
+    if run_several.phases_asked_for(arguments, entries):
+        words = [word for word in arguments if word != "--overwrite"]
+        chain = run_several.Chain(words, entries, None, None)
+        chain.refuse_way()
+    status, is_new = run_several.run_band(arguments, draw, reporting)
+    if chain is None or status != Status.SUCCESS:
+        return status
+    return chain.main(try_to_draw, reporting, is_new)
+
+
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
+    refuse_missing(PROGRAM)
     take_own(options)
     if options.ranks is not None and options.ranks < 1:
         raise RunError("--ranks must be 1 or more")
@@ -269,7 +285,7 @@ def main(options: argparse.Namespace) -> int:
                 f"--band takes --set, --restart and --overwrite, not {other}: each"
                 " scene has one core"
             )
-        return run_several.run_band(arguments, draw, reporting)
+        return run_band(arguments)
     entries = entries_of(arguments)
     directory, stop_file = places_of(arguments, entries)
     has_phases = bool(run_several.phases_asked_for(arguments, entries))

@@ -3,7 +3,8 @@
 
 A band: the scene and those of low and high resistance, at the same time, one core each;
 the page of the best one has all three. Phases (Installation/Phases): the scene and what
-follows it, one after the other; the page of the scene has a row for each phase.
+follows it, one after the other; the page of the scene has a row for each phase. Of a
+band, the best scene has phases.
 """
 import argparse
 import sys
@@ -90,9 +91,11 @@ def scenes_of(best: Path) -> dict[str, Path]:
     return found
 
 
-def compute_band(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool:
-    """Compute what is missing, one core each; return whether that was stopped. Raises
-    RunError where the program refuses a run."""
+def compute_band(
+    runs: dict[str, StudyRun], options: argparse.Namespace
+) -> list[StudyRun]:
+    """Compute what is missing, one core each; return those that were. Raises RunError
+    where the program refuses a run, and KeyboardInterrupt where that is stopped."""
     to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
     for member in to_do:
         if member.refusal:
@@ -105,18 +108,19 @@ def compute_band(runs: dict[str, StudyRun], options: argparse.Namespace) -> bool
         make(to_do, How(again=True, jobs=min(3, cores())))
     except KeyboardInterrupt:
         print("run: stopped; --restart resumes", file=sys.stderr)
-        return True
-    return False
+        raise
+    return to_do
 
 
 def run_band(
     words: Sequence[str],
     draw: Callable[[Path, None, bool], None],
     reporting: Reporting,
-) -> int:
+) -> tuple[int, bool]:
     """Run a band and draw it, the best run last and in full; return the largest exit
-    status. words: the best scene, and options of the program; draw: draws a run;
-    reporting: renews the page of the best one as long as it runs. Raises RunError."""
+    status, and whether the best one was computed anew. words: the best scene, and
+    options of the program; draw: draws a run; reporting: renews the page of the best
+    one as long as it runs. Raises RunError."""
     best, options = Path(words[0]), options_of(words[1:])
     directory, runs = Run(best, options.set).directory, dict[str, StudyRun]()
     for estimate, scene in scenes_of(best).items():
@@ -125,8 +129,10 @@ def run_band(
             "run:", scene.stem, Run(scene.resolve(), options.set, place)
         )
     with reporting(runs[BEST].run.directory):
-        if compute_band(runs, options):
-            return Status.STOPPED
+        try:
+            made = compute_band(runs, options)
+        except KeyboardInterrupt:
+            return Status.STOPPED, False
     for estimate in (LOW, HIGH, BEST):
         if estimate in runs and runs[estimate].status is not None:
             draw(runs[estimate].run.directory, None, estimate == BEST)
@@ -134,7 +140,7 @@ def run_band(
         if member.trouble:
             text = f"{member.trouble}{hint_on(member)}"
             print(f"run: {member.name}: {text}", file=sys.stderr)
-    return max(map(status_of, runs.values()))
+    return max(map(status_of, runs.values())), runs[BEST] in made
 
 
 def phases_asked_for(words: Sequence[str], entries: Mapping[str, str]) -> list[Phase]:
@@ -195,13 +201,13 @@ class Chain:
             raise RunError(f"{error}; {AGAIN}") from error
         return self.member(name, self.directory / name, **entries)
 
-    def make(self, draw: Draw, reporting: Reporting) -> Status:
+    def make(self, draw: Draw, reporting: Reporting, was_made: bool) -> Status:
         """Compute what is missing; return the status of the last run."""
-        member, was_made = self.member(self.scene.stem, self.directory), False
+        member = self.member(self.scene.stem, self.directory)
         for number in range(1, len(self.phases) + 2):
             if number > 1:
                 member = self.phase(number, member.run.directory)
-            again = self.again or was_made
+            again = self.again or (was_made and number > 1)
             is_new = compute(member, again, not was_made, reporting)
             was_made = was_made or is_new
             if number == 1 and self.directory.is_dir():
@@ -215,12 +221,13 @@ class Chain:
                 break
         return status
 
-    def main(self, draw: Draw, reporting: Reporting) -> int:
+    def main(self, draw: Draw, reporting: Reporting, scene_is_new: bool = False) -> int:
         """Compute what is missing, and renew the page of the scene; return the exit
         status of the last run. draw: draws a run, with an error bar; reporting: renews
-        a page as long as its run goes on."""
+        a page as long as its run goes on; scene_is_new: the scene has just been
+        computed, so that all phases are to follow."""
         self.refuse_way()
-        status = self.make(draw, reporting)
+        status = self.make(draw, reporting, scene_is_new)
         if (self.directory / "history.csv").is_file():
             print(f"report: {report.write(self.directory)}")
         return status

@@ -129,8 +129,6 @@ def value_in(scene: Run, entry: str) -> Value:
         text = scene.in_effect.get(entry)
     except RunError as error:
         raise StudyError(f"the scene is refused: {error}") from error
-    except OSError as error:
-        raise StudyError(f"{scene.program} cannot be run: {error}") from error
     if text is None:
         raise StudyError(f"the program has no entry {entry}")
     try:
