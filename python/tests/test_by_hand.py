@@ -12,10 +12,10 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
-from synthetic import write_run
+from synthetic import write_columns, write_run
 
-from caisson.evaluation import GRADIENT, rest_of_run
-from caisson.report import before, methods, page, verdict
+from caisson.evaluation import GRADIENT, HEAVE, rest_of_run
+from caisson.report import before, low_and_high, methods, page, verdict
 from caisson.results import Results, ResultsError
 from caisson.runner import FAILS
 from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
@@ -25,6 +25,7 @@ D, T, LENGTH, END = 8.0, 0.04, 9.0, 8.0
 INNER = D - 2 * T
 AREA, TIP, WALLS = pi / 4 * INNER**2, pi * (D - T) * T, pi * (D + INNER)
 WATER = 9810.0  # N/m3
+PUMP = {"Water/Largest suction": "20e3"}
 QC = 2e6  # Pa, of the cone test
 SCENE: dict[str, Any] = {
     "diameter_m": D,
@@ -464,7 +465,41 @@ class Page(Scene):
         text = self.text(run)
         self.assertRegex(text, r"By hand methods, not computed: feasible to \S+ m")
         self.assertNotIn("another layer begins", text)
-        self.assertRegex(text, r"About \S+ kN of weight in all")
+        self.assertRegex(text, r"about \S+ kN of weight in all")
+
+    def test_beside_a_run(self) -> None:
+        """A pump of 20 kPa ends where (R - W) / A has it. The page of a run in which
+        the soil bears twice as much says so, and that of one that agrees does not."""
+        self.scene(CLAY)
+        file = self.path / "run.json"
+        summary = json.loads(file.read_text("utf-8"))
+        summary["entries"] = {**PUMP, "Time/End penetration": str(END)}
+        file.write_text(json.dumps(summary), "utf-8")
+        depth = np.linspace(0.5, END, 76)
+        hand = bisected(in_clay, 2e6 + 20e3 * AREA, 8.25)
+        own = bisected(lambda h: 2 * in_clay(h, 8.25), 2e6 + 20e3 * AREA)
+        for factor in (2, 1):
+            total = factor * np.array([in_clay(h, 8.25) for h in depth])
+            required = (total - 2e6) / AREA
+            columns = {
+                "time_s": depth,
+                "penetration_m": depth,
+                "total_force_N": total,
+                "required_suction_Pa": required,
+                "suction_Pa": np.maximum(required, 0),
+                HEAVE: 0 * depth,
+            }
+            shares = {"tip_force": 2, "inner_friction": 1, "outer_friction": 1}
+            columns |= {f"{name}_N": total * x / 4 for name, x in shares.items()}
+            write_columns(self.path / "history.csv", columns)
+            run = Results(self.path)
+            said = low_and_high.sentence_of(run)
+            if factor == 2:
+                self.assertAlmostEqual(verdict.verdict_of(run).end or 0, own, delta=0.1)
+                (depths,) = re.findall(r"feasible to (\S+) m: plan for the", said)
+                self.assertAlmostEqual(float(depths), hand, delta=0.1)
+            else:
+                self.assertEqual(said, "")
 
     def test_unknown_ground(self) -> None:
         """What no method knows is named."""

@@ -12,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 from caisson import report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
 from caisson.plot import charts
-from caisson.report import verdict
+from caisson.report import low_and_high, verdict
 from caisson.results import Results
 from caisson.verdict import uncertainty
 from caisson.verdict.uncertainty import GROUND, MESH, PROGRAM
@@ -21,6 +21,7 @@ MODEL = hypot(0.08, 0.12)  # a model caisson, and rings of tubes
 FACTORS = {LOW: 0.7, BEST: 1.0, HIGH: 1.5}
 AREA = pi / 4 * (10 - 2 * 0.04) ** 2  # m2, beneath the lid of SCENE
 AT = np.array([3.0])  # m
+PUMP = {"Water/Largest suction": "20e3", "Time/End penetration": "4.5"}
 STEEL = 0.1 * 1.5e6  # N, of both frictions there
 
 
@@ -140,3 +141,24 @@ class Uncertainties(WithPage):
         (said,) = re.findall("At 4.5 m the required suction[^<]*", page)
         part = "mesh and steps ±8.6 kPa (20 % of the force; asked for, not computed)"
         self.assertIn(part, said)
+
+    def test_end_of_the_upper_value(self) -> None:
+        """A pump of 20 kPa ends at 3.5 m, and before that where 10 kPa for each meter
+        below 1.5 m, with the share of the force and a tenth of the friction, reach
+        it."""
+        run = self.leave_band(summary={**SUMMARY, "entries": PUMP})
+        history = {k: x for k, x in run.history.items() if "gradient" not in k}
+        write_columns(run.directory / "history.csv", history)
+        run = Results(run.directory)
+
+        def upper(h: float) -> float:
+            required, weight = 1e4 * (h - 1.5), 1e6 / AREA
+            steel = STEEL * h / AT[0] / AREA
+            return float(required + hypot(MODEL * (required + weight), steel))
+
+        end = low_and_high.end_of_upper(run)
+        assert end is not None
+        self.assertLess(upper(end), 20e3)  # rounded down to 5 cm
+        self.assertGreater(upper(end + 0.06), 20e3)
+        page = report.write(run.directory).read_text(encoding="utf-8")
+        self.assertIn(f"With the upper value, suction ends at {end:g} m", page)

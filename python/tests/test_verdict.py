@@ -60,8 +60,8 @@ class Verdicts(WithPage):
         self.assertTrue(found.text.startswith("Feasible to 3.5 m: "))
         self.assertIn("reaches the allowable one (pump).", found.text)
         words = (
-            "About 1.8 MN of weight in all, or a pump for 30 kPa, would be needed at"
-            " 4.5 m."
+            "By arithmetic, about 1.8 MN of weight in all, or a pump for 30 kPa, would"
+            " be needed at 4.5 m."
         )
         self.assertIn(words, found.text)
 

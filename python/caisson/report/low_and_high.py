@@ -2,19 +2,26 @@
 """What low and high resistance of the soil change on the page of the best estimate: the
 verdict, the penetration by weight, and the required suction at the quarters; and how
 far the result may be wrong in all."""
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of
+from caisson.evaluation import SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
+from caisson.verdict.by_hand import ByHand
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.report.verdict import REST, Verdict, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
-from caisson.results import Results
+from caisson.report.scene import end_of
+from caisson.results import Results, ResultsError
 from caisson.shown import Units
-from caisson.verdict.uncertainty import NAMES, at_end
+from caisson.verdict.limits import rounded_down
+from caisson.verdict.uncertainty import NAMES, at_end, over_depth
+
+APART = 0.1  # of the planned penetration: two ends of suction that differ
 
 
 def ends_of(run: Results) -> dict[str, Results]:
@@ -34,12 +41,29 @@ def n_soils(run: Results) -> int:
     return len({x.directory for x in run.estimates.values()}) if run.by_hand else 0
 
 
+def by_hand_in_words(run: Results) -> str:
+    """Return how far a caisson is feasible by hand methods, and what to plan for, where
+    the run that has ended says another depth."""
+    own, planned = verdict_of(run).end, end_of(run)
+    if run.by_hand or run.is_running or not planned or outcome.whole_way(run) is None:
+        return ""
+    try:
+        hand = outcome.depth_of(ByHand(run.directory))
+    except ResultsError:
+        return ""
+    if abs((hand or planned) - (own or planned)) < APART * planned:
+        return ""
+    return say("beside_by_hand", run.shown, hand or planned)
+
+
 def sentence_of(run: Results) -> str:
-    """Return what low and high resistance come to; nothing without a band."""
+    """Return what low and high resistance come to, as far as there is a band, and what
+    hand methods say that the run does not."""
     if not (best := verdict_of(run)).text:
         return ""
     ends = {e: outcome_of(x, run.shown, best) for e, x in ends_of(run).items()}
-    return say("of_band", ends, n_soils(run) == 1)
+    band = say("of_band", ends, n_soils(run) == 1)
+    return f"{by_hand_in_words(run)} {band}".strip()
 
 
 def verdict_with(run: Results) -> Verdict:
@@ -61,13 +85,28 @@ def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     return [[*c[:2], "; ".join(ends)] if c[0] == REST else c for c in cards]
 
 
+def end_of_upper(run: Results) -> float | None:
+    """Return the depth (m) where the upper end of the required suction reaches the
+    allowable one; None where it does not."""
+    found = over_depth(band_of(run), SUCTION)
+    known = found and installation.installation_of(run, Rate(), found.depth)
+    if not found or not known or not known.limits:
+        return None
+    # where the run itself needs a suction, from which its limits follow
+    needed = np.where(known.required > NOTHING, found.high / 1e3, 0.0)
+    upper = replace(known, required=needed)
+    end = outcome.reached(upper, known.allowable)
+    return rounded_down(end[0]) if end else None
+
+
 def uncertainty_of(run: Results) -> str:
     """Return how far the required suction of a run, or its force where there is none,
     may be wrong where the ways of all estimates end; nothing of a value of 0."""
     for found in reversed(at_end(band_of(run))):
         if found.values[-1] / 1e3 > NOTHING:
             name, unit = NAMES[found.column]
-            return say("uncertainty", found, run.shown, name, unit == "N")
+            end = end_of_upper(run) if found.column == SUCTION else None
+            return say("uncertainty", found, run.shown, name, unit == "N", end)
     return ""
 
 

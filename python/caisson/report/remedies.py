@@ -31,6 +31,7 @@ STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
+ROOM = 0.01  # of the diameter, that a shorter skirt leaves above the plug
 SENTENCES = Path(__file__).with_name("remedies.jinja")
 NOT_KNOWN = "not known: another layer begins above the planned depth"
 
@@ -293,7 +294,7 @@ def table_of(run: Results, found: Installation, end: float | None) -> dict[str, 
     target, shown = end_of(run), found.shown
     if end is None or target is None or target <= end:
         return {}
-    planned = planned_of(run, found, target)
+    planned, trend = planned_of(run, found, target), None
     if isinstance(planned, str):
         amounts = [["weight, wall, diameter, pump", planned]]
     else:
@@ -301,5 +302,8 @@ def table_of(run: Results, found: Installation, end: float | None) -> dict[str, 
         more = *sizes, pump_of(planned), skirt_of(planned)
         known = shown, planned.sizes, weight_of(planned), *more
         amounts = say_rows(SENTENCES, "amounts", *known)
-    heads = ["one of these", f"to reach {shown.place(target)}, by arithmetic"]
-    return {"heads": heads, "rows": amounts + say_rows(SENTENCES, "others", found, end)}
+        trend = None if planned.there else found.depth[planned.rows][[0, -1]]
+    heads = ["one of these", say(SENTENCES, "head", shown, target, trend)]
+    room = ROOM * float(run.scene.get("diameter_m") or 0)
+    others = say_rows(SENTENCES, "others", found, end, room)
+    return {"heads": heads, "rows": amounts + others}

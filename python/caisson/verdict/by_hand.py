@@ -106,8 +106,9 @@ def suction_of(
 
 
 class ByHand(Results):
-    """A scene of which a directory has the run.json of a first step, with a history by
-    hand methods. Raises ResultsError where none of them knows the ground."""
+    """A scene of which a directory has the run.json of a first step, or of a run, with
+    a history by hand methods. Raises ResultsError where none of them knows the ground.
+    """
 
     def __init__(
         self, directory: Path, estimate: str = BEST, facts: Mapping[str, str] = {}
@@ -120,13 +121,15 @@ class ByHand(Results):
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """run.json, without what only the one step has changed or said."""
+        """run.json, without what only the one step, or a run, has changed or said."""
         found = dict(super().summary)
         entries = found.get("entries", {}).items()
         found["entries"] = {k: v for k, v in entries if k not in STEP}
         results = found.get("results") or {}
         said = [x for x in results.get("warnings", []) if x["rank"] != "result"]
-        found["results"] = {**results, "warnings": said}
+        found["results"] = {"warnings": said}
+        scene = found.get("scene") or {}
+        found["scene"] = {k: v for k, v in scene.items() if k != "infeasible"}
         found["title"] = str(found.get("title") or "").partition(", on a mesh")[0]
         return found | {"written": ""} | dict(self.facts)
 
