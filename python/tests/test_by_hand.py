@@ -431,8 +431,11 @@ class Page(Scene):
 
     def test_low_and_high_in_one_soil(self) -> None:
         """The page says that the soil is not varied, and does not where it is."""
-        words, run = "Both are of the methods, in one soil", self.scene(SAND)
-        self.assertIn(words, self.text(run))
+        words, adhesion = "Both are of the methods, in one soil", "with one adhesion"
+        clay = self.text(self.scene({**CLAY, "total_stress": True}))
+        self.assertIn(f"{words} {adhesion} factor alpha", clay)
+        run = self.scene(SAND)
+        self.assertIn(f"{words}: --low", self.text(run))
         other = self.path / "high"
         shutil.copytree(self.path, other)
         members = {"best": run, "high": by_hand.ByHand(other)}

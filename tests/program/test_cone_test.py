@@ -15,6 +15,8 @@ from caisson.runner import read_parameters
 class ConeTests(SuggestTest):
     """Layers that come from a cone test."""
 
+    has_page = True
+
     def test_layers_of_a_cone_test(self) -> None:
         """The scenes are accepted, with the estimates and where they are from; the cone
         test is beside them, and on the page before any run."""

@@ -6,6 +6,7 @@ import re
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from program import SUCCESS, HERE, ProgramTest, caisson, history, summary
 
@@ -20,7 +21,15 @@ SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
 
 
 class SuggestTest(ProgramTest):
-    """Calls the command as a user does."""
+    """Calls the command as a user does. The page by hand methods, which takes half of
+    its time, is made where a test is about it."""
+
+    has_page = False
+
+    def setUp(self) -> None:
+        if not self.has_page:
+            patch = mock.patch("caisson.suggest.trial.by_hand", return_value="")
+            self.enterContext(patch)
 
     def suggest(
         self,
@@ -86,6 +95,8 @@ class Sizes(SuggestTest):
 
 class Band(SuggestTest):
     """Scenes of low and high resistance beside the best one."""
+
+    has_page = True
 
     def test_scenes_are_accepted(self) -> None:
         """In words, by a spread with its study, and by a cone test; each run has its
@@ -441,26 +452,6 @@ class Files(SuggestTest):
             edges = {"Rigid body/Edge of the tip": edge}
             self.run_program(SUCCESS, path, "--validate", entries=edges)
 
-    def test_page_of_a_changed_scene(self) -> None:
-        """A factor that is added to the scene is on its page, in the place of the page
-        before; what only a run has is refused."""
-        path = self.made_directory() / "own.prm"
-        sizes = ["--diameter", "15", "--skirt", "9", "--wall", "50mm"]
-        words = [*sizes, "--weight", "9MN", "--error", "20", "--density", "0.85"]
-        self.suggest(path, *words, layers=())
-        page = path.with_suffix(".html")
-        design = "subsection Design\n  set Factor on piping = 1.5\nend\n"
-        path.write_text(path.read_text() + design)
-        done = caisson("report", "--k-tan-delta-inside", "0.3,0.5", str(path))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("(piping by Houlsby & Byrne, factor 1.5)", done.stdout)
-        self.assertIn("factor 1.5", page.read_text())
-        self.assertIn("K tan δ = 0.3 to 0.5", page.read_text())
-        self.assertEqual(list(path.parent.glob("earlier_*")), [])
-        done = caisson("report", "--author", "A. Smith", str(path))
-        self.assertIn("own.prm has no run yet: leave --author out", done.stderr)
-        self.assertEqual(done.returncode, 1)
-
     def test_no_study_no_scene(self) -> None:
         """Where the study cannot be written, no scene is left either."""
         path = self.made_directory()
@@ -528,6 +519,32 @@ class Files(SuggestTest):
                 self.assertFalse(path.exists())
         self.suggest(path)
         self.assertIn("--overwrite", self.suggest(path, status=1))
+
+
+class Page(SuggestTest):
+    """What `caisson report` makes of a scene."""
+
+    has_page = True
+
+    def test_page_of_a_changed_scene(self) -> None:
+        """A factor that is added to the scene is on its page, in the place of the page
+        before; what only a run has is refused."""
+        path = self.made_directory() / "own.prm"
+        sizes = ["--diameter", "15", "--skirt", "9", "--wall", "50mm"]
+        words = [*sizes, "--weight", "9MN", "--error", "20", "--density", "0.85"]
+        self.suggest(path, *words, layers=())
+        page = path.with_suffix(".html")
+        design = "subsection Design\n  set Factor on piping = 1.5\nend\n"
+        path.write_text(path.read_text() + design)
+        done = caisson("report", "--k-tan-delta-inside", "0.3,0.5", str(path))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("(piping by Houlsby & Byrne, factor 1.5)", done.stdout)
+        self.assertIn("factor 1.5", page.read_text())
+        self.assertIn("K tan δ = 0.3 to 0.5", page.read_text())
+        self.assertEqual(list(path.parent.glob("earlier_*")), [])
+        done = caisson("report", "--author", "A. Smith", str(path))
+        self.assertIn("own.prm has no run yet: leave --author out", done.stderr)
+        self.assertEqual(done.returncode, 1)
 
 
 if __name__ == "__main__":

@@ -62,7 +62,8 @@ def sentence_of(run: Results) -> str:
     if not (best := verdict_of(run)).text:
         return ""
     ends = {e: outcome_of(x, run.shown, best) for e, x in ends_of(run).items()}
-    band = say("of_band", ends, n_soils(run) == 1)
+    clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
+    band = say("of_band", ends, n_soils(run) == 1, clay)
     return f"{by_hand_in_words(run)} {band}".strip()
 
 
