@@ -30,7 +30,7 @@ GROUPS: Groups = {
             "draw or print several runs, and what differs between two",
         ),
         "export": ("caisson.export.command", "give the soil to other programs"),
-        "log": ("caisson.log", "compare a run with the log of the vessel"),
+        "log": ("caisson.vessel_log", "compare a run with the log of the vessel"),
     },
 }
 COMMANDS = commands_of(GROUPS)

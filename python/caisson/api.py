@@ -168,7 +168,7 @@ def compare_log(directory: str | Path, measured: str | Path) -> list[str]:
         for sentence in caisson.compare_log("results/own", "measured.csv"):
             print(sentence)
     """
-    from caisson.log import write
+    from caisson.vessel_log import write
 
     return write(Path(directory), Path(measured))[1]
 

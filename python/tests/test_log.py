@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from synthetic import write_run
 
 import caisson
-from caisson import log as log_command
+from caisson import vessel_log
 from caisson.disk import InputError
-from caisson.log import expected, forecast, measured, picture, sheet, words
+from caisson.vessel_log import expected, forecast, measured, picture, sheet, words
 from caisson.results import Results
 
 WEIGHT, DIAMETER, WALL, END = 1.5e6, 8.0, 0.03, 9.0
@@ -123,7 +123,7 @@ class Vessel(unittest.TestCase):
         self.write_runs()
         self.write_log(BEST, 6.0)
         said = caisson.compare_log(self.own, self.file)
-        self.assertEqual(said, log_command.write(self.own, self.file)[1])
+        self.assertEqual(said, vessel_log.write(self.own, self.file)[1])
         self.assertIn("within the band", " ".join(said))
 
     def test_soil_outside(self) -> None:
@@ -204,7 +204,7 @@ class Vessel(unittest.TestCase):
         ]
         text = "\n".join(["time_s,depth_m,suction_kPa", *rows])
         self.file.write_text(text, encoding="utf-8")
-        _, said = log_command.write(self.own, self.file)
+        _, said = vessel_log.write(self.own, self.file)
         found, bins, _ = self.answer()
         self.assertLess(bins.depth[0], begin)
         self.assertAlmostEqual(forecast.fit_of(found, bins).factor[0], 1, delta=0.01)
@@ -223,7 +223,7 @@ class Vessel(unittest.TestCase):
             summary = {"scene": SCENE, "entries": {}}
             write_run(self.path / f"own_{name}", cut, summary)
         self.write_log(BEST, 5.0)
-        _, said = log_command.write(self.own, self.file)
+        _, said = vessel_log.write(self.own, self.file)
         text = "This rests on extrapolation: low from 5.8 m on and high from 6.86 m on."
         self.assertIn(text, said[0])
         page = (self.own / "vessel.html").read_text(encoding="utf-8")
@@ -251,7 +251,7 @@ class Vessel(unittest.TestCase):
         """Page, picture and table; and the blank sheet."""
         self.write_runs()
         self.write_log(1.1 * BEST, 6.0)
-        files, said = log_command.write(self.own, self.file)
+        files, said = vessel_log.write(self.own, self.file)
         self.assertTrue(all(file.stat().st_size > 500 for file in files))
         page = (self.own / "vessel.html").read_text(encoding="utf-8")
         for text in (*said, "Largest flow 20 m³/h", "20 repeated rows"):

@@ -31,7 +31,7 @@ MOST_COMMANDS, MOST_LINES = 12, 29_100  # of the user's package
 
 # of the package, in the order in which one may import another one
 FOLDERS = "design verdict plot error_bars uncertain".split()
-FOLDERS += "export report log suggest commands".split()
+FOLDERS += "export report vessel_log suggest commands".split()
 
 
 FILES = sorted((ROOT / "python/caisson").rglob("*.py"))

@@ -22,7 +22,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import least_squares
 from scipy.spatial.distance import cdist
 
-from caisson.log.expected import Expected
+from caisson.vessel_log.expected import Expected
 
 QUANTILE = 1.645  # of the normal distribution, of low and high
 REACH = 2.05  # standard deviations

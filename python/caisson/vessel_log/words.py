@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.log.expected import Expected
-from caisson.log.forecast import Bins, Fit, Forecast
-from caisson.log.measured import Log, hangs, least_suction
+from caisson.vessel_log.expected import Expected
+from caisson.vessel_log.forecast import Bins, Fit, Forecast
+from caisson.vessel_log.measured import Log, hangs, least_suction
 from caisson.template import say, say_rows
 
 SENTENCES = Path(__file__).with_name("words.jinja")

@@ -24,8 +24,8 @@ from caisson.paths import short
 from caisson.results import Results, ResultsError
 
 if TYPE_CHECKING:
-    from caisson.log.expected import Expected
-    from caisson.log.forecast import Bins, Forecast
+    from caisson.vessel_log.expected import Expected
+    from caisson.vessel_log.forecast import Bins, Forecast
 
 HERE = Path(__file__).parent
 PAGE, PICTURE, TABLE = "vessel.html", "vessel.png", "vessel.csv"
@@ -76,7 +76,7 @@ def write_page(
     """Write the page of a log beside its picture; return its path. extrapolated: which
     lines are so in each row."""
     from caisson import report
-    from caisson.log import words
+    from caisson.vessel_log import words
     from caisson.table import text_of
     from caisson.template import picture_of, template
 
@@ -100,9 +100,9 @@ def write_page(
 def write(directory: Path, measured: Path) -> tuple[list[Path], list[str]]:
     """Write page, picture and table of a log into the directory of a run; return the
     files, and what the log says. Raises InputError."""
-    from caisson.log import forecast, picture, words
-    from caisson.log.expected import expected_of
-    from caisson.log.measured import bins_of, read, weight_of
+    from caisson.vessel_log import forecast, picture, words
+    from caisson.vessel_log.expected import expected_of
+    from caisson.vessel_log.measured import bins_of, read, weight_of
     from caisson.table import digits, write_csv
 
     log, expected = read(measured), expected_of(Results(directory))
@@ -135,7 +135,7 @@ def main(options: argparse.Namespace) -> int:
             f"no history.csv in {options.directory}: give the results of a run"
         )
     if options.blank:
-        from caisson.log import sheet
+        from caisson.vessel_log import sheet
 
         files, said = sheet.write(options.directory), list[str]()
     else:

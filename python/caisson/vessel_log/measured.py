@@ -22,8 +22,8 @@ from caisson.design.cone_table import Rows, cell_of, is_number, value_of
 from caisson.design.cone_words import BRACKETS, plain
 from caisson import disk
 from caisson.disk import InputError
-from caisson.log.expected import Expected
-from caisson.log.forecast import LEAST_NOISE, Bins
+from caisson.vessel_log.expected import Expected
+from caisson.vessel_log.forecast import LEAST_NOISE, Bins
 from caisson.terminal import printable
 
 TABLE = Path(__file__).with_name("quantities.toml")

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 from caisson import disk
 from caisson.band import BEST, HIGH, LOW
-from caisson.log import words
-from caisson.log.expected import Expected
-from caisson.log.forecast import Bins, Forecast
-from caisson.log.measured import Log, resistance_of
+from caisson.vessel_log import words
+from caisson.vessel_log.expected import Expected
+from caisson.vessel_log.forecast import Bins, Forecast
+from caisson.vessel_log.measured import Log, resistance_of
 from caisson.plot.suction import WHITE
 from caisson.plot.small import in_units, legend_below, over_depth, with_note
 

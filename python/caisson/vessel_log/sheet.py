@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from caisson import disk, evaluation
 from caisson.band import ESTIMATES
-from caisson.log import picture, words
-from caisson.log.expected import Expected, expected_of
+from caisson.vessel_log import picture, words
+from caisson.vessel_log.expected import Expected, expected_of
 from caisson.results import Results
 from caisson.table import digits, write_csv
 from caisson.template import say_rows
