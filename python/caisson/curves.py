@@ -15,7 +15,7 @@ import numpy as np
 from caisson.results import Table
 
 EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
-FORCE_WINDOW = 0.2  # m, of a way of 0.8 m and more; see window_of()
+FORCE_WINDOW = 0.2  # m, of a way of 2 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
 FROM = 1.0  # m, of roughness: the start is left out
@@ -30,9 +30,9 @@ def penetration(history: Table) -> np.ndarray | None:
 
 
 def window_of(way: float) -> float:
-    """Return the width of the window on a way of this length (m): a quarter of a short
-    one."""
-    return min(FORCE_WINDOW, way / 4)
+    """Return the width of the window on a way of this length (m): a tenth of a short
+    one. A mean of h^2 about h is too high by (window / h)^2 / 12."""
+    return min(FORCE_WINDOW, way / 10)
 
 
 def in_window(position: np.ndarray, at: float, width: float) -> np.ndarray:

@@ -74,13 +74,13 @@ class WindowMean(unittest.TestCase):
         np.testing.assert_allclose(inside, [np.nan, *line[1:-1], np.nan])
 
     def test_smoothed_of_a_short_way(self) -> None:
-        """The window is a quarter of the way, and of few rows between them."""
-        self.assertEqual(curves.window_of(0.04), 0.01)
+        """The window is a tenth of the way, and of few rows between them."""
+        self.assertEqual(curves.window_of(0.04), 0.004)
         self.assertEqual(curves.window_of(8.0), 0.2)
         x = np.linspace(0, 0.04, 41)
         y = np.where(x > 0.0205, 1.0, 0.0)
         found = curves.smoothed_at(x, y, np.array([0.01, 0.02, 0.03]))
-        np.testing.assert_allclose(found, [0, 5 / 11, 1])
+        np.testing.assert_allclose(found, [0, 2 / 5, 1])
         few = np.array([0.0, 1.0, np.nan, 4.0])
         found = curves.smoothed_at(np.array([0.0, 1, 2, 3]), few, np.array([0.5, 2, 3]))
         np.testing.assert_allclose(found, [0.5, 2.5, 4])

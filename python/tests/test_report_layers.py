@@ -166,7 +166,7 @@ class Pulled(WithPage):
         self.assertFalse("nan %" in page)
         # where it begins, and the window of a rise of 0.1 m
         self.assertTrue("<td>Penetration at the start</td><td>1.999 m</td>" in page)
-        self.assertTrue("Averaged over 0.024 m of penetration. Unit" in page)
+        self.assertTrue("Averaged over 0.0096 m of penetration. Unit" in page)
 
     def test_no_capacity(self) -> None:
         """A load that the caisson holds is no capacity."""
