@@ -53,7 +53,7 @@ class Remedies(WithPage):
         self.assertEqual(rows["weight in water"], words)
         self.assertEqual(rows["pump"], "a pump for 30 kPa instead of 20 kPa")
         self.assertIn(
-            "at 3.5 m: a skirt of 3.8 m, which leaves 0.1 m", rows["stop earlier"]
+            "at 3.5 m: a skirt of 3.8 m leaves 0.1 m", rows["stop earlier"]
         )
         self.assertIn("end a run at 3.43 m", rows["cycles of force"])
 
