@@ -18,7 +18,7 @@ EDGE = 1e-9  # m, by which a row may lie outside of a window and still count
 FORCE_WINDOW = 0.2  # m, of a way of 2 m and more; see window_of()
 # with excess pressure on the tip and beneath a sealed lid, where a run has such
 WITH_WATER = "total_force_with_water_N"
-FROM = 1.0  # m, of roughness: the start is left out
+FROM, FEWEST = 1.0, 10  # of a roughness: m of the start that are left out, and rows
 
 
 def penetration(history: Table) -> np.ndarray | None:
@@ -188,10 +188,11 @@ def running_mean(position: np.ndarray, values: np.ndarray, width: float) -> np.n
 
 def roughness(position: np.ndarray, force: np.ndarray) -> float:
     """Return the standard deviation of a force about its running mean over the
-    mean of the latter, from FROM on (a share of 1)."""
-    mean = running_mean(position, force, FORCE_WINDOW)
-    used = (position >= FROM) & np.isfinite(mean)
-    if not used.any():
+    mean of the latter, from FROM on (a share of 1), nan of few rows."""
+    way = float(np.ptp(position))
+    mean = running_mean(position, force, window_of(way))
+    used = (position >= min(FROM, position.min() + way / 2)) & np.isfinite(mean)
+    if used.sum() <= FEWEST:
         return float("nan")
     return float(np.std(force[used] - mean[used]) / np.mean(mean[used]))
 

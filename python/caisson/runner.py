@@ -278,24 +278,18 @@ class Run:
         """Return the record of a finished run of these entries that the user has called
         himself, with this program; None where there is none."""
         summary = self.left("run.json")
-        parts = [summary.get(name) for name in ("defaults", "entries")]
-        known = {
-            k: v for part in parts if isinstance(part, dict) for k, v in part.items()
-        }
-        known = {k: v for k, v in known.items() if k not in self.BESIDE}
-        if summary.get("status") != "finished" or not known:
-            return None
         try:
-            is_same = known.items() <= self.in_effect.items()
-            written = (self.directory / "run.json").stat().st_mtime
-            if not is_same or written < self.program.stat().st_mtime:
-                return None
-        except (RunError, OSError, TypeError):
+            known = {**summary["defaults"], **summary["entries"]}
+            same = all(self.in_effect[k] == known[k] for k in {*known} - {*self.BESIDE})
+            files = self.directory / "run.json", self.program
+            written, built = (file.stat().st_mtime for file in files)
+        except (RunError, OSError, LookupError, TypeError):
             return None
-        seconds = summary.get("wall_time_s", 0.0)
-        times = {"wall_s": seconds, "cpu_s": seconds}
-        entries = self.entry_texts()
-        return {"key": self.key, "entries": entries, "status": Status.SUCCESS} | times
+        if summary.get("status") != "finished" or not same or written < built:
+            return None
+        found = dict.fromkeys(("wall_s", "cpu_s"), summary.get("wall_time_s", 0.0))
+        found |= {"entries": self.entry_texts(), "status": Status.SUCCESS}
+        return found | {"key": self.key}
 
     def left(self, name: str) -> dict[str, Any]:
         """Return what a file of JSON in the directory holds, nothing of a broken

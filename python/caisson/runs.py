@@ -16,7 +16,6 @@ from typing import Any
 
 from caisson import disk
 from caisson.needed import DASK, sentence
-from caisson.phases import ENTRY
 from caisson.progress import Progress, span
 from caisson.ranks import Size, cores, plan
 from caisson.results import Results, ResultsError
@@ -118,11 +117,6 @@ class StudyRun:
         except ResultsError:
             return None
         return ranks if isinstance(ranks, int) else None
-
-    @property
-    def has_phases(self) -> bool:
-        """Whether phases follow its scene, which only caisson run computes."""
-        return not self.refusal and bool(self.run.in_effect.get(ENTRY))
 
     def query_size(self) -> None:
         """Ask the program for its size; without one, refusal says why."""

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from caisson import disk, needed
+from caisson.phases import ENTRY
 from caisson.paths import PROGRAM, RESULTS, scene_or_study
 from caisson.progress import span
 from caisson.runner import Status
@@ -153,7 +154,7 @@ def run_missing(
         return None
     to_do = survey(runs, arguments.again, resumes=is_own, asks_all=is_own)
     refuse(to_do)
-    if is_own and any(run.has_phases for run in to_do):
+    if is_own and any(not x.refusal and x.run.in_effect.get(ENTRY) for x in to_do):
         print("note: only caisson run computes the phases of Installation/Phases")
     if arguments.part:
         number, of = arguments.part

@@ -499,10 +499,13 @@ class Page(Scene):
             said = low_and_high.sentence_of(run)
             if factor == 2:
                 self.assertAlmostEqual(verdict.verdict_of(run).end or 0, own, delta=0.1)
-                (depths,) = re.findall(r"feasible to (\S+) m: plan for the", said)
+                form = r"feasible to (\S+) m, but the run needs up to (\S+) kPa down to"
+                ((depths, needs),) = re.findall(form, said)
                 self.assertAlmostEqual(float(depths), hand, delta=0.1)
+                there = (2 * in_clay(float(depths), 8.25) - 2e6) / AREA / 1e3
+                self.assertAlmostEqual(float(needs) / there, 1, delta=0.03)
             else:
-                self.assertEqual(said, "")
+                self.assertNotIn("By hand methods", said)
 
     def test_unknown_ground(self) -> None:
         """What no method knows is named."""

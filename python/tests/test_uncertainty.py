@@ -161,4 +161,6 @@ class Uncertainties(WithPage):
         self.assertLess(upper(end), 20e3)  # rounded down to 5 cm
         self.assertGreater(upper(end + 0.06), 20e3)
         page = report.write(run.directory).read_text(encoding="utf-8")
-        self.assertIn(f"With the upper value, suction ends at {end:g} m", page)
+        self.assertIn(
+            f"With the upper value of its uncertainty, suction ends at {end:g} m", page
+        )

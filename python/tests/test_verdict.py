@@ -60,8 +60,8 @@ class Verdicts(WithPage):
         self.assertTrue(found.text.startswith("Feasible to 3.5 m: "))
         self.assertIn("reaches the allowable one (pump).", found.text)
         words = (
-            "By arithmetic, about 1.8 MN of weight in all, or a pump for 30 kPa, would"
-            " be needed at 4.5 m."
+            "By arithmetic and without margin, about 1.8 MN of weight in all, or a pump"
+            " for 30 kPa, would be needed at 4.5 m."
         )
         self.assertIn(words, found.text)
 
@@ -124,6 +124,10 @@ class Verdicts(WithPage):
         scene = {**SCENE, "infeasible": {"penetration_m": 4.2, "reason": "piping"}}
         self.assertEqual(verdict.by_gradient(self.run_of(scene=scene)), (4.2, True))
         self.assertEqual(verdict.by_gradient(self.run_of()), (4.5, False))
+        clay = {**SCENE["layers"][0], "top_depth_m": 3.0, "friction_angle_deg": 0.0}
+        clay["cohesion_Pa"] = 4e4
+        both: dict[str, Any] = {**SCENE, "layers": [*SCENE["layers"], clay]}
+        self.assertEqual(verdict.by_gradient(self.run_of(scene=both)), (3.0, False))
 
     def test_end_before_the_planned_one(self) -> None:
         """The sentence says why the run ended there."""

@@ -97,7 +97,7 @@ class Retrieval(ProgramTest):
                 row["allowable_overpressure_Pa"], weight * h + STRENGTH, delta=50
             )
         self.assertIn(
-            "Retrieved from 2 m to 1.8 m by an overpressure", known["verdict"]
+            "From 2 m to 1.8 m, retrieval takes an overpressure", known["verdict"]
         )
 
     def test_set_up(self) -> None:

@@ -19,13 +19,9 @@ from caisson.results import Results
 from caisson.verdict import outcome
 from caisson.verdict.installation import Rate
 
+add_arguments = comparison.add_arguments
 NONE = "none"  # of what one of them does not have
 Words = dict[str, str]  # by the name of an entry or a card
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `caisson compare`."""
-    comparison.add_arguments(parser)
 
 
 def scene_of(run: Results) -> Words:

@@ -2,9 +2,8 @@
 """Runs that belong to one scene, with their pages.
 
 A band: the scene and those of low and high resistance, at the same time, one core each;
-the page of the best one has all three. Phases (Installation/Phases): the scene and what
-follows it, one after the other; the page of the scene has a row for each phase. Of a
-band, the best scene has phases.
+the page of the best one has all three. Phases (Installation/Phases): the scene, of a
+band the best one, and what follows it; its page has a row for each phase.
 """
 import argparse
 import sys

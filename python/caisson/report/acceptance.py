@@ -9,7 +9,7 @@ from caisson import template
 from caisson.report import pull
 from caisson.report.scene import end_of
 from caisson.results import Results
-from caisson.verdict import acceptance, disturbed, limits
+from caisson.verdict import acceptance, disturbed, limits, outcome
 from caisson.verdict.installation import Installation, Rate
 
 SENTENCES = Path(__file__).with_name("acceptance.jinja")
@@ -40,7 +40,8 @@ def stop_rows(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     """Return (criterion, number, what it rests on) of the vessel."""
     stop = acceptance.stop_of(run, found, end_of(run) or float(found.depth[-1]))
     flows = [template.say(pull.SENTENCES, "of_flow", x, 3) for x in stop.flow]
-    return say_rows("stop", run.shown, stop, rate.words, flows, cells=3)
+    more = outcome.depth_of(run) is not None, run.known.get("assumed", [])
+    return say_rows("stop", run.shown, stop, rate.words, flows, *more, cells=3)
 
 
 def load_of(run: Results, found: Installation) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from caisson.results import Results, Table
 from caisson.shown import Units, units_for
 from caisson.table import in_units
 from caisson.template import say, say_rows
-from caisson.verdict import run_review
+from caisson.verdict import outcome, run_review
 from caisson.verdict.installation import Installation
 
 SENTENCES = Path(__file__).with_name("page.jinja")
@@ -149,23 +149,27 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     return in_units(columns, shown)
 
 
-def averaged(run: Results) -> str:
-    """Return over how much penetration the numbers of the tables are averaged."""
+def window_in(run: Results) -> float:
+    """Return over how much penetration the numbers of a run are averaged (m)."""
     depth = run.history.get("penetration_m", np.zeros(1))
     way = depth[curves.main_way(depth)]
-    window = curves.window_of(float(np.ptp(way))) if len(way) else 0.0
-    return say(SENTENCES, "averaged", run.shown, window)
+    return curves.window_of(float(np.ptp(way))) if len(way) else 0.0
 
 
-def scatter_of(history: Table) -> float:
-    """Return the scatter of the force about its mean, nan where it is not known."""
-    depth = curves.penetration(history)
-    if depth is None or "total_force_N" not in history:
+def averaged(run: Results) -> str:
+    """Return over how much penetration the numbers of the tables are averaged."""
+    return say(SENTENCES, "averaged", run.shown, window_in(run))
+
+
+def scatter_of(run: Results) -> float:
+    """Return the scatter of the force about its mean down to where suction ends, nan
+    where it is not known."""
+    depth = curves.penetration(run.history)
+    if depth is None or "total_force_N" not in run.history:
         return math.nan
-    if (depth >= curves.FROM).sum() <= 10:
-        return math.nan
-    found = curves.roughness(depth, history["total_force_N"])
-    return found if math.isfinite(found) else math.nan
+    rows = depth <= (outcome.depth_of(run) or np.inf)
+    found = curves.roughness(depth[rows], run.history["total_force_N"][rows])
+    return abs(found) if math.isfinite(found) else math.nan
 
 
 def remarks_on_numbers(run: Results) -> list[str]:
@@ -176,8 +180,8 @@ def remarks_on_numbers(run: Results) -> list[str]:
     numbers = (
         None if residual is None else abs(residual),
         abs(run.history.get("plug_balance_error", np.zeros(1))[-1]),
-        scatter_of(run.history),
-        curves.FORCE_WINDOW,
+        scatter_of(run),
+        run.shown.words(window_in(run), "m", ".2g"),
         run_review.kinetic_share_of(run),
         run.summary.get("max_points_in_body", 0),
     )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of
-from caisson.evaluation import SUCTION
+from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
 from caisson.verdict.by_hand import ByHand
@@ -21,6 +21,8 @@ from caisson.shown import Units
 from caisson.verdict.limits import rounded_down
 from caisson.verdict.uncertainty import NAMES, at_end, over_depth
 
+# of the soil: what the result depends on most, where it is assumed
+DOUBTFUL = ("Adhesion factor of the walls", "Permeability", "Relative density")
 APART = 0.1  # of the planned penetration: two ends of suction that differ
 
 
@@ -44,8 +46,8 @@ def n_soils(run: Results) -> int:
 def by_hand_in_words(run: Results) -> str:
     """Return how far a caisson is feasible by hand methods, and what to plan for, where
     the run that has ended says another depth."""
-    own, planned = verdict_of(run).end, end_of(run)
-    if run.by_hand or run.is_running or not planned or outcome.whole_way(run) is None:
+    own, planned, found = verdict_of(run).end, end_of(run), outcome.whole_way(run)
+    if run.by_hand or run.is_running or not planned or not found or not found.limits:
         return ""
     try:
         hand = outcome.depth_of(ByHand(run.directory))
@@ -53,18 +55,23 @@ def by_hand_in_words(run: Results) -> str:
         return ""
     if abs((hand or planned) - (own or planned)) < APART * planned:
         return ""
-    return say("beside_by_hand", run.shown, hand or planned)
+    at, depth = hand or planned, run.history[DEPTH]
+    needs = run.history[SUCTION][depth <= max(at, depth[0])].max() / 1e3
+    needs *= at > (own or planned)
+    return say("beside_by_hand", run.shown, at, needs, min(at, depth.max()))
 
 
 def sentence_of(run: Results) -> str:
-    """Return what low and high resistance come to, as far as there is a band, and what
-    hand methods say that the run does not."""
+    """Return, as far as they are known, where suction ends with the upper value of its
+    uncertainty, how far hand methods go, and what low and high resistance come to."""
     if not (best := verdict_of(run)).text:
         return ""
     ends = {e: outcome_of(x, run.shown, best) for e, x in ends_of(run).items()}
     clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
     band = say("of_band", ends, n_soils(run) == 1, clay)
-    return f"{by_hand_in_words(run)} {band}".strip()
+    end = None if run.by_hand or run.is_running else end_of_upper(run)
+    upper = say("end_of_upper", run.shown, end) if end else ""
+    return " ".join(filter(None, [upper, by_hand_in_words(run), band]))
 
 
 def verdict_with(run: Results) -> Verdict:
@@ -106,8 +113,9 @@ def uncertainty_of(run: Results) -> str:
     for found in reversed(at_end(band_of(run))):
         if found.values[-1] / 1e3 > NOTHING:
             name, unit = NAMES[found.column]
-            end = end_of_upper(run) if found.column == SUCTION else None
-            return say("uncertainty", found, run.shown, name, unit == "N", end)
+            entries = {x.rpartition("/")[2] for x in run.known.get("assumed", [])}
+            assumed = [entry for entry in DOUBTFUL if entry in entries]
+            return say("uncertainty", found, run.shown, name, unit == "N", assumed)
     return ""
 
 

@@ -18,7 +18,7 @@ from caisson.evaluation import DEPTH, sinks_on
 from caisson.report import pull, remedies
 from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
-from caisson.verdict import outcome, retrieval, run_review, uncertainty
+from caisson.verdict import outcome, retrieval, run_review, theory, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
 from caisson.verdict.limits import COMPUTED, PIPING
@@ -42,15 +42,18 @@ say = functools.partial(template.say, pull.SENTENCES)
 
 def by_gradient(run: Results) -> tuple[float, bool] | None:
     """Return the depth (m) where the exit gradient of the run itself becomes critical,
-    and True, or that to which it does not, and False; None where it is not known."""
+    and True, or that to which it does not in sand, and False; None where it is not
+    known."""
     if (ended := outcome.end_by_program(run)) and ended[1] == outcome.PIPING_IN_RUN:
         return ended[0], True
     found = outcome.whole_way(run)
     limit = found.limits.get(COMPUTED) if found else None
     if found is None or limit is None or not np.isfinite(limit).any():
         return None
-    end = reached(found, limit)
-    return (float(found.depth[-1]), False) if end is None else (end[0], True)
+    if end := reached(found, limit):
+        return end[0], True
+    deepest = min(float(found.depth[-1]), ended[0] if ended else np.inf)
+    return theory.above_clay(theory.site_of(run), deepest) or deepest, False
 
 
 def of_suction(

@@ -27,6 +27,7 @@ ENTRIES = START, SCOUR, TILT, NUMBER, DISTANCE, SPREAD, DOCUMENT  # of section D
 ROWS = 80  # of a grid of depths
 # shares of the embedment, at which a load is given
 DOWN = {"mudline": 0.0, "1/4": 0.25, "1/2": 0.5, "3/4": 0.75, "tip": 1.0}
+MORE_HEAVE = 2.0  # times the computed one, at which the vessel stops
 FURTHER = 3.0  # times the penetration by weight, to which a seal is looked for
 
 
@@ -237,13 +238,14 @@ class Load(NamedTuple):
     """The load case where the suction is nearest to that which buckles the wall: that
     depth, the suction, the axial force (kN) on the top of the wall, the depths of the
     frames around, and places along the wall with their depth below the mudline and the
-    net pressure from outside."""
+    net pressure from outside; and the largest suction, with its depth."""
 
     depth: float
     suction: float
     axial: float
     frames: list[float]
     along: list[tuple[str, float, float]]
+    most: tuple[float, float]
 
 
 def beyond_suction(pressures: Table, depth: float) -> np.ndarray:
@@ -267,7 +269,7 @@ def load_of(run: Results, found: Installation) -> Load | None:
     if not wall or not pressures:
         return None
     buckling = found.limits.get(limits.SHELL, np.full(len(found.depth), np.nan))
-    row = int(np.argmax(found.required))
+    row = largest = int(np.argmax(found.required))
     if np.isfinite(buckling).any():
         row = int(np.nanargmax(found.required / buckling))
     depth, suction = float(found.depth[row]), float(found.required[row])
@@ -278,20 +280,21 @@ def load_of(run: Results, found: Installation) -> Load | None:
     at = np.unique(pressures[DEPTH])
     around = [*at[at <= depth][-1:], *at[at > depth][:1]]
     axial = weight_of(run) + suction * wall.area_inside
-    return Load(depth, suction, axial, [float(h) for h in around], along)
+    most = float(found.required[largest]), float(found.depth[largest])
+    return Load(depth, suction, axial, [float(h) for h in around], along, most)
 
 
 class Stop(NamedTuple):
     """When the vessel stops, with numbers of a depth end: the allowable suction from
     where the caisson rests on, at the first and the last depth and where it is least,
-    with what governs there; the
-    heave that fills the skirt at the planned depth, and the one computed; the flow at
-    which the exit gradient would be critical (m3/h), and the one computed; the tilt
-    (degrees, 0 if it is not given). nan stands for what is not known."""
+    with what governs there; the heave at which it stops, the one computed, and that
+    which fills the skirt at the planned depth; the flow under the allowable suction
+    (m3/h), and the one computed; the tilt (degrees, 0 if it is not given). nan stands
+    for what is not known."""
 
     end: float
     suctions: list[tuple[float, float, str]]
-    heave: tuple[float, float]
+    heave: tuple[float, float, float]
     flow: tuple[float, float]
     tilt: float
 
@@ -317,21 +320,23 @@ def stop_of(run: Results, found: Installation, planned: float) -> Stop:
         (float(found.depth[i]), float(found.allowable[i]), words(i))
         for i in sorted(rows)
     ]
-    heave, end = (nan, nan), float(found.depth[-1])
+    heave, end = (nan, nan, nan), float(found.depth[-1])
     if len(found.room):
-        heave = float(run.scene["skirt_length_m"]) - planned, float(found.heave[-1])
+        computed = float(found.heave[-1])
+        fills = float(run.scene["skirt_length_m"]) - planned
+        heave = min(fills, MORE_HEAVE * max(computed, 0.0) or fills), computed, fills
     tilt = given(run, TILT)
     return Stop(end, suctions, heave, flows_of(found), tilt)
 
 
 def flows_of(found: Installation) -> tuple[float, float]:
-    """Return the flow at the end with the seepage of a critical gradient in place of
-    the computed one, as it is linear in the suction, and the computed flow (m3/h)."""
-    limit = found.limits.get(limits.COMPUTED, np.array([nan]))[-1]
+    """Return the flow at the end with the seepage under the allowable suction in place
+    of the computed one, as it is linear in the suction, and the computed flow
+    (m3/h)."""
     if not len(found.seepage) or not len(found.flow):
         return nan, nan
     flow, seepage = float(found.flow[-1]), float(found.seepage[-1])
     if not found.required[-1] > NOTHING:
         return nan, flow
-    critical = limit * found.factors[limits.COMPUTED] / float(found.required[-1])
-    return flow - seepage + seepage * float(critical), flow
+    more = float(found.allowable[-1]) / float(found.required[-1])
+    return flow - seepage + seepage * more, flow
