@@ -218,6 +218,7 @@ class Clay(Scene):
         self.assertRegex(text, rf"water boils .*? {boils:.0f} ")
         heave = TIP / AREA * (0.5 * rest + (8 - rest))
         self.assertIn(f"heave of the plug {heave:.2f} m", text)
+        self.assertNotIn("without loosening of the sand", text)
         self.assertIn(f"Room below the lid {LENGTH - 8 - heave:.2f} m", text)
         self.assertIn("Nothing is computed yet", text)
         self.assertIn("It takes about 2 min: run own.prm", text)
@@ -468,6 +469,7 @@ class Page(Scene):
         text = self.text(run)
         self.assertRegex(text, r"By hand methods, not computed: feasible to \S+ m")
         self.assertNotIn("another layer begins", text)
+        self.assertIn("without loosening of the sand", text)
         self.assertRegex(text, r"about \S+ kN of weight in all")
 
     def test_beside_a_run(self) -> None:

@@ -133,7 +133,7 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     rest = "" if found.rest is None else rest_in_words(run, found.rest)
     row = largest_flow(found) if len(found.flow) else None
     length = float(run.scene.get("skirt_length_m") or 0)
-    what = weight, rest, ways_down(run), row, rate.words, length
+    what = weight, rest, ways_down(run), row, rate.words, length, run
     return template.say_rows(pull.SENTENCES, "cards", found, *what, cells=3)
 
 
