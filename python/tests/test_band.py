@@ -124,7 +124,7 @@ class Page(WithPage):
             "With low resistance to 4.5 m, suction up to 16.5 kPa; with high"
             " resistance to 3.6 m (pump)."
         )
-        self.assertTrue(text.endswith(ends), text)
+        self.assertTrue(text.endswith(f"{ends}</span>"), text)
         self.assertTrue("low resistance: 2.14 m; high resistance: 1.00 m" in page)
 
     def test_quarters(self) -> None:

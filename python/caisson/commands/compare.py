@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from caisson.plot import comparison
 from caisson.report import scene, trace, verdict
-from caisson.report.low_and_high import cards_of, verdict_with
+from caisson.report.low_and_high import cards_of, sentence_of
 from caisson.results import Results
 from caisson.verdict import outcome
 from caisson.verdict.installation import Rate
@@ -33,7 +33,7 @@ def scene_of(run: Results) -> Words:
 
 def page_of(run: Results) -> Words:
     """Return what the page of a run says first: its verdict, and its cards."""
-    said = {"verdict": verdict_with(run).text}
+    said = {"verdict": f"{verdict.verdict_of(run).text} {sentence_of(run)}".strip()}
     if (found := outcome.whole_way(run)) is not None:
         part = outcome.feasible_part(run, found, outcome.depth_of(run))
         for name, *words in cards_of(run, verdict.cards_of(run, part, Rate())):

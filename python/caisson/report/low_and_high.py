@@ -23,6 +23,7 @@ from caisson.verdict.uncertainty import NAMES, at_end, over_depth
 
 # of the soil: what the result depends on most, where it is assumed
 DOUBTFUL = ("Adhesion factor of the walls", "Permeability", "Relative density")
+LITTLE = 0.1  # of the largest suction
 APART = 0.1  # of the planned penetration: two ends of suction that differ
 
 
@@ -74,12 +75,6 @@ def sentence_of(run: Results) -> str:
     return " ".join(filter(None, [upper, by_hand_in_words(run), band]))
 
 
-def verdict_with(run: Results) -> Verdict:
-    """Return the verdict on a run with that on low and high resistance."""
-    best = verdict_of(run)
-    return best._replace(text=f"{best.text} {sentence_of(run)}".rstrip())
-
-
 def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     """Return the cards of a run, where the penetration by weight has its range in place
     of the weight, which the verdict names."""
@@ -100,8 +95,9 @@ def end_of_upper(run: Results) -> float | None:
     known = found and installation.installation_of(run, Rate(), found.depth)
     if not found or not known or not known.limits:
         return None
-    # where the run itself needs a suction, from which its limits follow
-    needed = np.where(known.required > NOTHING, found.high / 1e3, 0.0)
+    # not where suction begins: limits follow from it, by a ratio of small numbers
+    least = max(NOTHING, LITTLE * known.required.max())
+    needed = np.where(known.required > least, found.high / 1e3, 0.0)
     upper = replace(known, required=needed)
     end = outcome.reached(upper, known.allowable)
     return rounded_down(end[0]) if end else None

@@ -30,7 +30,7 @@ MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
     " next overview factors remedies warnings computed tables has_bar has_suction"
     " averaged rate pictures units methods remarks entries defaults facts acceptance"
-    " signed phases retrieval".split(),
+    " signed phases retrieval more".split(),
     "",
 )
 REFRESH = 20  # s, of the page of a run that has not ended
@@ -204,7 +204,8 @@ def html(run: Results, rate: Rate) -> str:
         beside = methods.methods_of(run, end)
         own = verdict.cards_of(run, found, rate) if found else []
         known |= {
-            "verdict": low_and_high.verdict_with(run),
+            "verdict": verdict.verdict_of(run),
+            "more": low_and_high.sentence_of(run),
             "cards": low_and_high.cards_of(run, own) + methods.card_of(beside),
             "methods": beside,
         }
