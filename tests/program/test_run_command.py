@@ -132,7 +132,8 @@ class Run(ProgramTest):
         self.assertTrue("total, low to high resistance" in page)
         low, high = (history(path / f"own_{end}") for end in ("low", "high"))
         self.assertGreater(high[-1]["total_force_N"], low[-1]["total_force_N"])
-        (path / "own_low/run_key.json").unlink()
+        for name in ("run_key.json", "run.json"):
+            (path / "own_low" / name).unlink()
         with mock.patch("caisson.commands.run.draw") as drawn:
             text = self.run_here(SUCCESS, best, "--band")
         self.assertEqual(drawn.call_count, 3)
