@@ -122,8 +122,8 @@ class Files(ProgramTest):
         self.check_by_hand(history(path)[1:], known)
 
     def check_by_hand(self, rows: Rows, known: dict[float, dict[str, Any]]) -> None:
-        """A mean over a quarter of the way, and a line at its end."""
-        window = (rows[-1]["penetration_m"] - rows[0]["penetration_m"]) / 4
+        """A mean over a tenth of the way, and a line at its end."""
+        window = (rows[-1]["penetration_m"] - rows[0]["penetration_m"]) / 10
         near = [r for r in rows if abs(r["penetration_m"] - 0.6) <= window / 2 + 1e-9]
         mean = sum(row["tip_force_N"] for row in near) / len(near)
         self.assertAlmostEqual(known[0.6]["tip_force_N"] / mean, 1, 9)
