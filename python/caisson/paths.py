@@ -23,7 +23,7 @@ def find_program() -> Path:
     """Return the program: that of CAISSON_MPM_PROGRAM, that of the build or of the
     installation, or one on PATH. Without any, where the second one would be."""
     if named := os.environ.get("CAISSON_MPM_PROGRAM"):
-        return Path(named)
+        return Path(shutil.which(named) or named)
     own = (ROOT.parent.parent / "bin" if INSTALLED else BUILD) / "caisson_mpm"
     on_path = None if own.is_file() else shutil.which("caisson_mpm")
     return Path(on_path) if on_path else own

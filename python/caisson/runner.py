@@ -169,10 +169,12 @@ def read_parameters(
     return entries
 
 
-@functools.lru_cache
-def digest(path: Path) -> str:
-    """Return a hash of a file, which is read once."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+def content_of(path: Path) -> str:
+    """Return a hash of a file as it is now, nothing where there is none."""
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+
+
+digest = functools.lru_cache(content_of)  # of a file that is read once
 
 
 class Run:
@@ -259,7 +261,8 @@ class Run:
         entries = {k: v for k, v in self.in_effect.items() if k not in self.BESIDE}
         if before := entries.get(self.BEFORE):  # both may be moved together
             place = (WORK / before).resolve()
-            entries[self.BEFORE] = os.path.relpath(place, self.directory.resolve())
+            where = os.path.relpath(place, self.directory.resolve())
+            entries[self.BEFORE] = f"{where}: {content_of(place / 'history.csv')}"
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -280,7 +283,10 @@ class Run:
         summary = self.left("run.json")
         try:
             known = {**summary["defaults"], **summary["entries"]}
-            same = all(self.in_effect[k] == known[k] for k in {*known} - {*self.BESIDE})
+            names = ({*known} | {*self.in_effect}) - {*self.BESIDE}
+            # the program leaves out layers that are not there
+            names = {k for k in names if k in known or "Soil/Layer" not in k}
+            same = all(self.in_effect[k] == known[k] for k in names)
             files = self.directory / "run.json", self.program
             written, built = (file.stat().st_mtime for file in files)
         except (RunError, OSError, LookupError, TypeError):

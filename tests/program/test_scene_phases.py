@@ -87,8 +87,9 @@ class Phases(ProgramTest):
         self.assertEqual(after["key"], before["key"])
 
     def test_after_an_installation(self) -> None:
-        """An installation that the user has run is not repeated, but that of another
-        velocity is. A folder that was moved keeps what is complete in it."""
+        """An installation that the user has run is not repeated. A folder that was
+        moved keeps what is complete in it. Phases of an earlier installation do not
+        stand for those of a new one, also where they set what it has changed."""
         path = self.directory()
         self.run_phases(SUCCESS, path, **{phases.ENTRY: ""})
         time = summary(path)["written"]
@@ -100,8 +101,11 @@ class Phases(ProgramTest):
         path.rename(moved)
         text = self.run_phases(SUCCESS, moved)
         self.assertEqual(text.count("complete, and not repeated"), 2, text)
-        text = self.run_phases(SUCCESS, moved, **{"Rigid body/Velocity": "0.2"})
-        self.assertEqual(text.count("complete, and not repeated"), 0, text)
+        damped = {"Method/Local damping": "0.3"}
+        words = {phases.ENTRY: "", **damped}
+        self.run_phases(SUCCESS, moved, "--overwrite", **words)
+        text = self.run_phases(SUCCESS, moved, **damped)
+        self.assertEqual(text.count("complete, and not repeated"), 1, text)
 
     def test_band(self) -> None:
         """The best scene of a band has phases. They are refused before anything is run,

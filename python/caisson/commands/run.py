@@ -259,6 +259,10 @@ def run_band(arguments: list[str]) -> int:
         chain.refuse_way()
     status, is_new = run_several.run_band(arguments, draw, reporting)
     if chain is None or status != Status.SUCCESS:
+        if chain is not None:
+            print(
+                "run: phases follow when all of the band is complete", file=sys.stderr
+            )
         return status
     return chain.main(try_to_draw, reporting, is_new)
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of
+from caisson.curves import EDGE
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
@@ -50,14 +51,17 @@ def by_hand_in_words(run: Results) -> str:
     own, planned, found = verdict_of(run).end, end_of(run), outcome.whole_way(run)
     if run.by_hand or run.is_running or not planned or not found or not found.limits:
         return ""
+    depth = run.history[DEPTH]
+    if own is None and depth.max() < (1 - 1e-3) * planned:
+        return ""  # it has not gone that far
     try:
         hand = outcome.depth_of(ByHand(run.directory))
     except ResultsError:
         return ""
-    if abs((hand or planned) - (own or planned)) < APART * planned:
+    at = hand or planned
+    if abs(at - (own or planned)) < APART * planned or at < depth[0]:
         return ""
-    at, depth = hand or planned, run.history[DEPTH]
-    needs = run.history[SUCTION][depth <= max(at, depth[0])].max() / 1e3
+    needs = np.nanmax(run.history[SUCTION][depth <= at + EDGE]) / 1e3
     needs *= at > (own or planned)
     return say("beside_by_hand", run.shown, at, needs, min(at, depth.max()))
 
@@ -71,7 +75,8 @@ def sentence_of(run: Results) -> str:
     clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
     band = say("of_band", ends, n_soils(run) == 1, clay)
     end = None if run.by_hand or run.is_running else end_of_upper(run)
-    upper = say("end_of_upper", run.shown, end) if end else ""
+    is_less = end is not None and end < (best.end or np.inf)
+    upper = say("end_of_upper", run.shown, end) if is_less else ""
     return " ".join(filter(None, [upper, by_hand_in_words(run), band]))
 
 
@@ -88,10 +93,16 @@ def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     return [[*c[:2], "; ".join(ends)] if c[0] == REST else c for c in cards]
 
 
+def has_ended(run: Results) -> bool:
+    """Return whether a run has come to its end."""
+    return run.known.get("status", "finished") == "finished"
+
+
 def end_of_upper(run: Results) -> float | None:
     """Return the depth (m) where the upper end of the required suction reaches the
     allowable one; None where it does not."""
-    found = over_depth(band_of(run), SUCTION)
+    band = {n: x for n, x in band_of(run).items() if n == BEST or has_ended(x)}
+    found = over_depth(band, SUCTION)
     known = found and installation.installation_of(run, Rate(), found.depth)
     if not found or not known or not known.limits:
         return None
