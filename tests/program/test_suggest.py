@@ -21,8 +21,8 @@ SAND = "0: Friction angle = 33, Youngs modulus = 20e6"
 
 
 class SuggestTest(ProgramTest):
-    """Calls the command as a user does. The page by hand methods, which takes half of
-    its time, is made where a test is about it."""
+    """Calls the command as a user does. The page by hand methods is made where a test
+    is about it."""
 
     has_page = False
 
