@@ -94,7 +94,7 @@ def compute_band(
     runs: dict[str, StudyRun], options: argparse.Namespace
 ) -> list[StudyRun]:
     """Compute what is missing, one core each; return those that were. Raises RunError
-    where the program refuses a run, and KeyboardInterrupt where that is stopped."""
+    where the program refuses a run."""
     to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
     for member in to_do:
         if member.refusal:
@@ -103,11 +103,7 @@ def compute_band(
     for member in runs.values():
         text = what_becomes_of(member, member in to_do)
         print(f"run: {member.name}: {text}", flush=True)
-    try:
-        make(to_do, How(again=True, jobs=min(3, cores())))
-    except KeyboardInterrupt:
-        print("run: stopped; --restart resumes", file=sys.stderr)
-        raise
+    make(to_do, How(again=True, jobs=min(3, cores())))
     return to_do
 
 
@@ -131,6 +127,7 @@ def run_band(
         try:
             made = compute_band(runs, options)
         except KeyboardInterrupt:
+            print("run: stopped; --restart resumes", file=sys.stderr)
             return Status.STOPPED, False
     for estimate in (LOW, HIGH, BEST):
         if estimate in runs and runs[estimate].status is not None:
