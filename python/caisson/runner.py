@@ -10,6 +10,7 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
@@ -211,6 +212,9 @@ class Run:
         self.scene, self.entries = scene, dict(entries or {})
         self.ranks, self.binding, self.program = ranks, binding, program
         self.restarts = False  # from its checkpoint
+        # of the program, or of mpirun, while it runs
+        self.process_id: int | None = None
+        self.asked_to_stop: int | None = None
         self.directory = directory or Path(self.in_effect["Output/Directory"])
 
     @functools.cached_property
@@ -351,6 +355,7 @@ class Run:
                 env=environment(),
             ) as process,
         ):
+            self.process_id = process.pid
             last = collections.deque[str](maxlen=1)
             assert process.stdout
             try:
@@ -359,23 +364,30 @@ class Run:
                     if echo:
                         print(line, end="", flush=True)
             except KeyboardInterrupt:
-                self.stop(process)
+                self.stop()
+                process.communicate()
                 raise
             status = process.wait()
+            self.process_id = None
             errors.seek(0)
             said = errors.read().strip() or "".join(last).strip()
         if status not in (Status.SUCCESS, Status.STOPPED):
             raise RunError(f"{said}\n(exit status {status}, results: {self.directory})")
 
-    def stop(self, process: "subprocess.Popen[str]") -> None:
-        """Stop a call with a checkpoint, and wait for its end: by the stop file, as
-        mpirun ends ranks that get a signal before they have written theirs."""
+    def stop(self, at_once: bool = False) -> None:
+        """Ask the program, if it runs, to stop with a checkpoint: by the stop file, as
+        mpirun ends ranks that get a signal before they have written theirs. at_once:
+        by a signal all the same. Asked for again, it does nothing."""
+        process = self.process_id
+        if process is None or (process == self.asked_to_stop and not at_once):
+            return
+        self.asked_to_stop = process
         name = self.in_effect["Run control/Stop file"]
-        if name and self.directory.is_dir():
+        if name and self.directory.is_dir() and not at_once:
             (self.directory / name).touch()
         else:
-            process.terminate()
-        process.communicate()
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGTERM)
 
     def make_room(self) -> list[str]:
         """Make the directory; return the options with which the program removes what
@@ -405,13 +417,20 @@ class Run:
         begin = time.monotonic()
         with open(self.directory / "log", "a", encoding="utf-8") as log:
             process = subprocess.Popen(
-                command, stdout=log, stderr=log, cwd=WORK, env=environment()
+                command,
+                stdout=log,
+                stderr=log,
+                cwd=WORK,
+                env=environment(),
+                start_new_session=True,  # signals come to us alone
             )
+            self.process_id = process.pid
             clock = threading.Timer(time_limit or 0, process.kill)
             if time_limit is not None:
                 clock.start()
             _, code, used = os.wait4(process.pid, 0)
             clock.cancel()
+            self.process_id = None
         status = process.returncode = os.waitstatus_to_exitcode(code)
         if status not in (Status.SUCCESS, Status.FAILURE):
             return Status(status) if status in list(Status) else None

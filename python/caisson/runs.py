@@ -8,8 +8,12 @@ package. A run that is complete is not repeated while the program, all entries i
 and the ranks are the same (caisson.runner.Run).
 """
 import concurrent.futures
+import contextlib
+import signal
+import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -266,6 +270,37 @@ def make(runs: Sequence[StudyRun], how: How = How()) -> None:
         execute([(runs, n, None)], how, client)
 
 
+@contextlib.contextmanager
+def signals_as_interrupt() -> Iterator[None]:
+    """Let SIGTERM and SIGHUP be a KeyboardInterrupt, as Ctrl-C is; not one that is
+    ignored, as by nohup. Only the main thread gets any."""
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) == signal.SIG_DFL:
+                before[number] = signal.signal(number, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def stop(runs: Sequence[StudyRun], work: Sequence[Future[None]]) -> None:
+    """Stop runs that are being computed with a checkpoint, and begin no further one; at
+    once on another KeyboardInterrupt. work: their computations."""
+    for each in work:
+        each.cancel()
+    at_once, is_done = False, False
+    while not is_done:
+        try:
+            for run in runs:
+                run.run.stop(at_once)
+            is_done = not concurrent.futures.wait(work, 1.0).not_done
+        except KeyboardInterrupt:
+            at_once = True
+
+
 def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> None:
     """Make the runs of one share after the other, here or by a client of Dask. A bar,
     or in a log file a line now and then, shows how far all of them are."""
@@ -298,15 +333,18 @@ def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> No
         progress.end(number)
 
     progress = Progress([run.duration for run in ordered], share_of=share_of)
-    with progress:
+    with progress, signals_as_interrupt():
         first = 0
         for runs, jobs, ranks in sorted_shares:
             numbers = range(first, first + len(runs))
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+                work = [pool.submit(one, number, ranks) for number in numbers]
                 try:
-                    list(pool.map(lambda number, r=ranks: one(number, r), numbers))
+                    for each in work:
+                        each.result()
                 except KeyboardInterrupt:
-                    if client is not None:  # else the programs end by themselves
+                    if client is not None:
                         client.close()
+                    stop(ordered, work)
                     raise
             first += len(runs)

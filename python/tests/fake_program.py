@@ -6,8 +6,9 @@ force, and a file `calls` beside the results that counts the runs.
 Entries: Soil/Friction angle (30), Soil/Stiffness (5e6), Soil/Kind (sand). It refuses an
 angle below 0 with --validate, and breaks off at 3 m where it is above 40. The variable
 FAKE_PROGRAM_POINTS makes --validate report a number of points, and FAKE_PROGRAM_HOLDS
-names the directory of a run that leaves a checkpoint and does not end. A run with
---restart has a + in calls; --overwrite removes forces.png, as the program does.
+names the directory of a run that leaves a checkpoint and goes on until it is stopped or
+who has started it is gone. A run with --restart has a + in calls; --overwrite removes
+forces.png, as the program does.
 """
 import argparse
 import os
@@ -20,6 +21,7 @@ ENTRIES = {
     "Soil/Stiffness": "5e6",
     "Soil/Kind": "sand",
     "Output/Directory": "results",
+    "Run control/Stop file": "stop",
 }
 
 
@@ -45,7 +47,12 @@ def run(entries: dict[str, str], directory: Path, mark: str) -> int:
     with open(directory.parent / "calls", "a", encoding="utf-8") as calls:
         calls.write(f"{directory.name}{mark}\n")
     if directory.name == os.environ.get("FAKE_PROGRAM_HOLDS"):
-        time.sleep(3600)  # the test ends it
+        begun_by, stop = os.getppid(), directory / entries["Run control/Stop file"]
+        while os.getppid() == begun_by:
+            if stop.exists():
+                stop.unlink()
+                return 3
+            time.sleep(0.05)
     breaks_off = float(entries["Soil/Friction angle"]) > 40
     depths = [0.5 + 0.01 * i for i in range(251 if breaks_off else 401)]
     rows = [f"{d},{d:.2f},{force(entries, d)}" for d in depths]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """caisson park: rows, runs that are killed and resumed, and the overview. The scenes
 are those of the program; the runs are made by the stand-in of python/tests."""
+import contextlib
 import csv
 import os
 import signal
@@ -8,6 +9,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+from collections.abc import Iterator
 from pathlib import Path
 from unittest import mock
 
@@ -54,6 +56,37 @@ class Park(CommandTest):
         """Return whether a run has left its record."""
         return (self.out / "runs" / name / "run_key.json").is_file()
 
+    @contextlib.contextmanager
+    def begun(self, done: list[str]) -> Iterator["subprocess.Popen[str]"]:
+        """Start the park, and wait until it has done some runs and makes P2, which does
+        not end by itself."""
+        with subprocess.Popen(
+            self.words(*self.words_of("--jobs", "2")),
+            env={**self.environment(), "FAKE_PROGRAM_HOLDS": "P2"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        ) as process:
+            end = time.monotonic() + WAIT
+            while not ("P2" in self.calls() and all(map(self.is_done, done))):
+                self.assertIsNone(process.poll(), "it ended before it was stopped")
+                self.assertLess(time.monotonic(), end)
+                time.sleep(0.05)
+            yield process
+
+    def test_a_signal_stops_what_runs(self) -> None:
+        """What runs ends with a checkpoint, and nothing further begins."""
+        self.write(*(ROW.format(name, 20) for name in ("P1", "P2", "P3")))
+        with self.begun(["P1", "P3"]) as process:
+            process.send_signal(signal.SIGTERM)
+            said = process.communicate(timeout=WAIT)[0]
+        self.assertEqual(process.returncode, 1, said)
+        self.assertIn("P2: stopped", said)
+        self.assertIn("interrupted; what is finished is kept", said)
+        self.assertTrue((self.out / "runs/P2/checkpoint.info").is_file())
+        self.assertFalse((self.out / "runs/P2/stop").exists(), "nobody has seen it")
+
     def test_a_kill_loses_no_run(self) -> None:
         """What has ended stays as it is, and what was begun goes on from its
         checkpoint; a row that is changed or added then takes a run, and no other one
@@ -61,17 +94,8 @@ class Park(CommandTest):
         names = ["P1", "P2", "P3"]
         self.write(*(ROW.format(name, 20) for name in names))
         self.caisson(*self.words_of("--check"))
-        with subprocess.Popen(
-            self.words(*self.words_of("--jobs", "2")),
-            env={**self.environment(), "FAKE_PROGRAM_HOLDS": "P2"},
-            stdout=subprocess.DEVNULL,
-            start_new_session=True,
-        ) as process:
-            others, end = ["P1", "P3"], time.monotonic() + WAIT
-            while not ("P2" in self.calls() and all(map(self.is_done, others))):
-                self.assertIsNone(process.poll(), "it ended before it was killed")
-                self.assertLess(time.monotonic(), end)
-                time.sleep(0.05)
+        others = ["P1", "P3"]
+        with self.begun(others) as process:
             os.killpg(process.pid, signal.SIGKILL)
         self.assertFalse((self.out / "overview.csv").exists())
         before = {x: self.record(x).stat().st_mtime_ns for x in others}

@@ -46,8 +46,9 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
     None where it did not."""
     if not (ended := run.scene.get("infeasible")):
         return None
-    reason = str(ended["reason"])
-    return limits.rounded_down(ended["penetration_m"]), IN_PROGRAM.get(reason, reason)
+    reason, first = str(ended["reason"]), float(run.history["penetration_m"][0])
+    depth = max(limits.rounded_down(ended["penetration_m"]), first)
+    return depth, IN_PROGRAM.get(reason, reason)
 
 
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
@@ -102,7 +103,8 @@ def feasible_part(
 
 def feasible(run: Results, way: Way) -> Way:
     """Return a way down to where suction ends."""
-    rows = way.depth <= (depth_of(run) or np.inf)
+    end = depth_of(run)
+    rows = way.depth <= (np.inf if end is None else end)
     if rows.sum() < 2:
         return way
     return Way(way.depth[rows], {k: x[rows] for k, x in way.columns.items()})
