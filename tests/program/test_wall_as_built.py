@@ -71,11 +71,12 @@ class AsBuilt(ProgramTest):
             "Material points/Split and merge": "true",
         }
         scenes: dict[str, Entries] = {
-            "thin": {},
             "halved": halved,
             "thick": {"Rigid body/Wall steps": "0.8 : 0.3"},
-            "flush": {"Rigid body/Flush face": "inner"},
-            "edge": {"Rigid body/Edge of the tip": 1},
+            "flush": {
+                "Rigid body/Flush face": "inner",
+                "Rigid body/Edge of the tip": 1,
+            },
         }
         for name, more in scenes.items():
             with self.subTest(name):
