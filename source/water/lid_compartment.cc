@@ -180,20 +180,21 @@ namespace CaissonMPM
   }
 
   NamedNumbers
-  LidCompartment::columns(const Mudline &mudline, const WaterFlow &flow) const
+  LidCompartment::columns(const Mudline &mudline, const WaterFlow &flow)
   {
     // only the names are wanted before the flow is known
     const auto at_wall = [&](const Mudline::Side side) {
       return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
     };
-    const double rise   = plug_.heave(mudline);
-    NamedNumbers result = {{"suction_Pa", suction()},
-                           {"cavitation_suction_Pa",
-                            suction_.cavitation(height_of_lid())},
-                           {"suction_force_N", load()},
-                           {"tip_water_force_N", flow.tip_force},
-                           {"pore_pressure_factor", flow.pressure_factor}};
-    const auto   add    = [&result](const NamedNumbers &more) {
+    const NamedNumbers balance = plug_.balance(mudline);
+    const double       rise    = plug_.heave(mudline);
+    NamedNumbers       result  = {{"suction_Pa", suction()},
+                                  {"cavitation_suction_Pa",
+                                   suction_.cavitation(height_of_lid())},
+                                  {"suction_force_N", load()},
+                                  {"tip_water_force_N", flow.tip_force},
+                                  {"pore_pressure_factor", flow.pressure_factor}};
+    const auto         add     = [&result](const NamedNumbers &more) {
       result.insert(result.end(), more.begin(), more.end());
     };
     if (flow.flows)
@@ -207,7 +208,7 @@ namespace CaissonMPM
          {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
          {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
          {"flow_iterations", 1. * flow.n_iterations}});
-    add(plug_.balance(mudline));
+    add(balance);
     if (is_sealed())
       add(sealed.columns());
     else

@@ -30,6 +30,8 @@ namespace CaissonMPM
     totals.carry("plug_height_at_start", height_at_start);
     totals.carry("plug_soil_at_start", volume_at_start.initial);
     totals.carry("plug_volume_at_start", volume_at_start.present);
+    totals.carry("plug_clay_lost_at_start", volume_at_start.lost_by_clay);
+    totals.carry("plug_volume_lost_by_clay", lost_by_clay);
     totals.keep("has_warned_of_piping", has_warned_of_piping);
     totals.keep("has_warned_of_lift", has_warned_of_lift);
   }
@@ -55,7 +57,8 @@ namespace CaissonMPM
   Plug::heave(const Mudline &mudline) const
   {
     return has_started && mudline.is_found() ?
-             mudline.mean_height(Mudline::Side::plug) - height_at_start :
+             mudline.mean_height(Mudline::Side::plug) - height_at_start +
+               lost_by_clay / area() :
              0.;
   }
 
@@ -74,6 +77,11 @@ namespace CaissonMPM
   {
     const double radius     = scene.body.shape().left(),
                  tip        = -scene.body.penetration();
+    const bool is_coupled   = scene.settings.level == WaterLevel::coupled;
+    const auto keeps_volume = [&](const MaterialPoint &p) {
+      return !is_coupled &&
+             scene.soil.material(p.material).has_undrained_strength();
+    };
     const auto share_inside = [&](const MaterialPoint &p) {
       const double inside = radius - p.position[radial];
       if (p.position[vertical] > tip)
@@ -88,24 +96,29 @@ namespace CaissonMPM
           const double share = share_inside(p);
           sum.initial += share * p.initial_volume;
           sum.present += share * p.volume;
+          if (keeps_volume(p))
+            sum.lost_by_clay += share * (p.initial_volume - p.volume);
         });
-    for (double *const value : {&sum.initial, &sum.present})
+    for (double *const value : {&sum.initial, &sum.present, &sum.lost_by_clay})
       *value = scene.grid.circumference() *
                Utilities::MPI::sum(*value, scene.grid.communicator());
     return sum;
   }
 
   NamedNumbers
-  Plug::balance(const Mudline &mudline) const
+  Plug::balance(const Mudline &mudline)
   {
-    const double rise   = area() * heave(mudline);
-    double       inflow = 0., dilation = 0.;
+    double inflow = 0., dilation = 0.;
     if (has_started)
       {
         const Volume now = find_volume();
-        inflow           = now.initial - volume_at_start.initial;
-        dilation         = now.present - volume_at_start.present - inflow;
+        lost_by_clay =
+          std::max(0., now.lost_by_clay - volume_at_start.lost_by_clay);
+        inflow = now.initial - volume_at_start.initial;
+        dilation =
+          now.present - volume_at_start.present - inflow + lost_by_clay;
       }
+    const double rise = area() * heave(mudline);
     const double largest =
       std::max({std::abs(rise), std::abs(inflow), std::abs(dilation)});
     const double error = rise - inflow - dilation;

@@ -99,6 +99,30 @@ class Lift(ProgramTest):
         self.assertAlmostEqual(found[1] / found[0], 1, delta=0.02)
 
 
+class Heave(ProgramTest):
+    """The rise of the plug does not hang on Poisson's ratio: clay keeps its volume."""
+
+    def test_compressed_clay(self) -> None:
+        """With a ratio of 0.3 the plug is compressed by half of what it has risen; that
+        volume is not taken from the heave."""
+        heave = {}
+        for ratio in (0.3, 0.49):
+            path = self.directory(f"{ratio}")
+            entries: Entries = {
+                **TOTAL_STRESS,
+                "Soil/Layer 1/Poisson ratio": ratio,
+                "Rigid body/Initial penetration": 1.5,
+                "Rigid body/Submerged weight": 0,
+                "Time/End penetration": 1.9,
+                "Output/Record interval": 0.5,
+            }
+            self.run_scene("suction", path, entries=entries)
+            rows = history(path)
+            self.assertGreater(min(row["plug_dilation_m3"] for row in rows), -1e-9)
+            heave[ratio] = rows[-1]["plug_heave_m"]
+        self.assertGreater(heave[0.3], 0.75 * heave[0.49])
+
+
 class Stress(ProgramTest):
     """What frames and wall.csv show of a long skirt that is held, while a suction pulls
     at its plug that is far below the one that lifts it."""

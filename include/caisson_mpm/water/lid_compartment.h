@@ -114,7 +114,7 @@ namespace CaissonMPM
 
     /** Return the numbers of a record. Collective. */
     NamedNumbers
-    columns(const Mudline &mudline, const WaterFlow &flow) const;
+    columns(const Mudline &mudline, const WaterFlow &flow);
 
     /** Append warnings of the plug. @p where: at which penetration. */
     void

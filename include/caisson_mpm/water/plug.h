@@ -45,12 +45,15 @@ namespace CaissonMPM
    *
    * where the inflow is the change of the sum of the initial volumes of the
    * points inside, which is that of their mass, and the dilation the change of
-   * the sum of present minus initial volumes. The mudline is found from the
-   * tops of the highest points and not from volumes: the difference of both
-   * sides is an error of the mudline, or of the volumes, which may leave gaps
-   * or overlap. Beneath the tip, a point counts with the share of its width
-   * that is inside. Whole points would make the inflow jump by a row of points
-   * at a time: in prm/jack_coarse.prm, by a quarter of it after half a meter.
+   * the sum of present minus initial volumes. Without coupled water, clay of
+   * undrained strength keeps its volume: what it has lost in a law by total
+   * stress, with a Poisson's ratio below 0.5, is added to the dilation, and to
+   * the heave over the area. The mudline is found from the tops of the highest
+   * points and not from volumes: the difference of both sides is an error of
+   * the mudline, or of the volumes, which may leave gaps or overlap. Beneath
+   * the tip, a point counts with the share of its width that is inside. Whole
+   * points would make the inflow jump by a row of points at a time: in
+   * prm/jack_coarse.prm, by a quarter of it after half a meter.
    *
    * Water lifts one block of the plug first (Terzaghi's heave): one beside the
    * wall from the surface down to a depth h, as wide as half of the embedment
@@ -75,8 +78,9 @@ namespace CaissonMPM
     double
     area() const;
 
-    /** How far the surface has risen, and how far beyond what the soil that the
-     * wall displaces would make it rise. Units: m. */
+    /** How far the surface has risen, with the volume that clay had lost at the
+     * last balance(), and how far beyond what the soil that the wall displaces
+     * would make it rise. Units: m. */
     double
     heave(const Mudline &mudline) const;
 
@@ -124,7 +128,7 @@ namespace CaissonMPM
     /** Return the columns of the balance; all names and zeros before start().
      * Collective. */
     NamedNumbers
-    balance(const Mudline &mudline) const;
+    balance(const Mudline &mudline);
 
     /** Append warnings of piping and lift at a flow of this @p scale. @p where:
      * at which penetration. */
@@ -136,10 +140,10 @@ namespace CaissonMPM
          std::vector<std::string> &warnings);
 
   private:
-    /** The soil inside. */
+    /** The soil inside, and how much of it undrained clay has lost. */
     struct Volume
     {
-      double initial = 0., present = 0.; // m3
+      double initial = 0., present = 0., lost_by_clay = 0.; // m3
     };
 
     Volume
@@ -149,6 +153,7 @@ namespace CaissonMPM
     bool               has_started     = false;
     double             height_at_start = 0.; // m
     Volume             volume_at_start;
+    double             lost_by_clay = 0.; // m3, since the start
     ExitGradient       exit_;
     WithstoodGradients withstood_;
     bool               has_warned_of_piping = false, has_warned_of_lift = false;
