@@ -14,23 +14,19 @@
 #define CAISSON_QUOTE_(text) #text
 #define CAISSON_QUOTE(text) CAISSON_QUOTE_(text)
 
-namespace CaissonMPM
+namespace CaissonMPM::Kernels
 {
-  namespace Kernels
+  const KernelTable &
+  CAISSON_TABLE(CAISSON_KERNEL_ISA)()
   {
-    const KernelTable &
-    CAISSON_TABLE(CAISSON_KERNEL_ISA)()
-    {
-      static constexpr KernelTable table = {
-        CAISSON_QUOTE(CAISSON_KERNEL_ISA),
-        NativeLanes::width,
-        &points_to_grid<NativeLanes>,
-        &pressure_force<NativeLanes>,
-        &pressure_gradient_force<NativeLanes>,
-        &apply_mass,
-        &grid_to_points<NativeLanes>,
-        &largest_moduli<NativeLanes>};
-      return table;
-    }
-  } // namespace Kernels
-} // namespace CaissonMPM
+    static constexpr KernelTable table = {CAISSON_QUOTE(CAISSON_KERNEL_ISA),
+                                          NativeLanes::width,
+                                          &points_to_grid<NativeLanes>,
+                                          &pressure_force<NativeLanes>,
+                                          &pressure_gradient_force<NativeLanes>,
+                                          &apply_mass,
+                                          &grid_to_points<NativeLanes>,
+                                          &largest_moduli<NativeLanes>};
+    return table;
+  }
+} // namespace CaissonMPM::Kernels

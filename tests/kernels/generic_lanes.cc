@@ -5,15 +5,12 @@
 #include "kernel_scene.h"
 
 #ifdef CAISSON_X86_64
-namespace CaissonMPM
+namespace CaissonMPM::Kernels
 {
-  namespace Kernels
-  {
-    /** Compiled with CAISSON_GENERIC_LANES, for this test only. */
-    const KernelTable &
-    kernels_generic();
-  } // namespace Kernels
-} // namespace CaissonMPM
+  /** Compiled with CAISSON_GENERIC_LANES, for this test only. */
+  const KernelTable &
+  kernels_generic();
+} // namespace CaissonMPM::Kernels
 #endif
 
 /** The largest difference of the points of two scenes, relative to 1 plus its

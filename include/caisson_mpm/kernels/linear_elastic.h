@@ -11,44 +11,41 @@
 
 #include <caisson_mpm/kernels/material_law.h>
 
-namespace CaissonMPM
+namespace CaissonMPM::Kernels
 {
-  namespace Kernels
+  inline namespace CAISSON_KERNEL_ISA
   {
-    inline namespace CAISSON_KERNEL_ISA
+    /** The law "linear elastic": Hooke's law for increments. See the head of
+     * the file. */
+    struct LinearElastic : ElasticLaw
     {
-      /** The law "linear elastic": Hooke's law for increments. See the head of
-       * the file. */
-      struct LinearElastic : ElasticLaw
+      static constexpr const char *name = "linear elastic";
+
+      using Parameters = Elasticity;
+
+      static constexpr LawEntry<Parameters> entries[] = {
+        {&Parameters::youngs_modulus, Entries::youngs_modulus},
+        {&Parameters::poisson_ratio, Entries::poisson_ratio}};
+
+      /** nu / (1 - nu). */
+      static double
+      earth_pressure_at_rest(const Parameters &p)
       {
-        static constexpr const char *name = "linear elastic";
+        return p.lambda / (p.lambda + 2. * p.mu);
+      }
 
-        using Parameters = Elasticity;
-
-        static constexpr LawEntry<Parameters> entries[] = {
-          {&Parameters::youngs_modulus, Entries::youngs_modulus},
-          {&Parameters::poisson_ratio, Entries::poisson_ratio}};
-
-        /** nu / (1 - nu). */
-        static double
-        earth_pressure_at_rest(const Parameters &p)
-        {
-          return p.lambda / (p.lambda + 2. * p.mu);
-        }
-
-        /** Advance @p sigma by the strain increment @p de. */
-        template <typename Number>
-        [[gnu::always_inline]] static inline void
-        update(StressState<Number>           &sigma,
-               const StrainIncrement<Number> &de,
-               LawState<Number> & /*state*/,
-               const Parameters &parameters)
-        {
-          add_elastic_increment(sigma, de, parameters.lambda, parameters.mu);
-        }
-      };
-    } // namespace CAISSON_KERNEL_ISA
-  }   // namespace Kernels
-} // namespace CaissonMPM
+      /** Advance @p sigma by the strain increment @p de. */
+      template <typename Number>
+      [[gnu::always_inline]] static inline void
+      update(StressState<Number>           &sigma,
+             const StrainIncrement<Number> &de,
+             LawState<Number> & /*state*/,
+             const Parameters &parameters)
+      {
+        add_elastic_increment(sigma, de, parameters.lambda, parameters.mu);
+      }
+    };
+  } // namespace CAISSON_KERNEL_ISA
+} // namespace CaissonMPM::Kernels
 
 #endif

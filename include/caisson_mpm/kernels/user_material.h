@@ -12,46 +12,43 @@
 #include <caisson_mpm/kernels/layout.h>
 #include <caisson_mpm/kernels/material_law.h>
 
-namespace CaissonMPM
+namespace CaissonMPM::Kernels
 {
-  namespace Kernels
+  inline namespace CAISSON_KERNEL_ISA
   {
-    inline namespace CAISSON_KERNEL_ISA
+    /** The law "user material". See the head of the file; it has no update()
+     * for lanes: user_points.h. */
+    struct UserMaterial : MaterialLaw
     {
-      /** The law "user material". See the head of the file; it has no update()
-       * for lanes: user_points.h. */
-      struct UserMaterial : MaterialLaw
+      static constexpr const char *name             = "user material";
+      static constexpr bool        stiffness_varies = true, is_external = true;
+
+      struct Parameters : LawNumbers
       {
-        static constexpr const char *name      = "user material";
-        static constexpr bool stiffness_varies = true, is_external = true;
+        // known when the library has been loaded
+        double  modulus = 0.; // lambda + 2 mu at the start, Pa
+        UserLaw update  = nullptr;
+        void   *law     = nullptr;
 
-        struct Parameters : LawNumbers
-        {
-          // known when the library has been loaded
-          double  modulus = 0.; // lambda + 2 mu at the start, Pa
-          UserLaw update  = nullptr;
-          void   *law     = nullptr;
-
-          void
-          derive()
-          {}
-        };
-
-        static constexpr LawEntry<Parameters> entries[] = {
-          {&Parameters::friction_angle, Entries::friction_angle}};
-
-        /** That of the start: UserState has those of the points. */
-        template <typename Number>
-        [[gnu::always_inline]] static inline Number
-        p_wave_modulus(const StressState<Number> & /*stress*/,
-                       const Number /*void_ratio*/,
-                       const Parameters &p)
-        {
-          return Number(p.modulus);
-        }
+        void
+        derive()
+        {}
       };
-    } // namespace CAISSON_KERNEL_ISA
-  }   // namespace Kernels
-} // namespace CaissonMPM
+
+      static constexpr LawEntry<Parameters> entries[] = {
+        {&Parameters::friction_angle, Entries::friction_angle}};
+
+      /** That of the start: UserState has those of the points. */
+      template <typename Number>
+      [[gnu::always_inline]] static inline Number
+      p_wave_modulus(const StressState<Number> & /*stress*/,
+                     const Number /*void_ratio*/,
+                     const Parameters &p)
+      {
+        return Number(p.modulus);
+      }
+    };
+  } // namespace CAISSON_KERNEL_ISA
+} // namespace CaissonMPM::Kernels
 
 #endif
