@@ -227,7 +227,10 @@ namespace CaissonMPM
       for (const Cell &cell : corner.cells)
         if (cell.is_owned && step.points.first_block[cell.cell] >= 0)
           {
-            const Vector2 more = forces.at_corner(cell.cell, cell.corner);
+            Vector2 more;
+            for (const auto &force : forces)
+              if (force->is_active())
+                more += force->at_corner(cell.cell, cell.corner);
             for (unsigned int d = 0; d < 2; ++d)
               sums_[n_sums * cell.index + 3 + d] += more[d];
           }

@@ -72,7 +72,8 @@ namespace CaissonMPM
     sums_.zero_out_ghost_values();
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
     context.kernels.points_to_grid(context.step, nodes);
-    forces.collect(context, nodes);
+    for (const auto &force : forces)
+      force->collect(context, nodes);
     selective_mass_.collect(context.step, deformation_inertia, nodes);
     hanging_nodes->distribute(sums_, sizeof(NodalSums) / sizeof(double));
     sums_.compress(dealii::VectorOperation::add);
@@ -84,7 +85,8 @@ namespace CaissonMPM
   {
     change = 0.;
     change.zero_out_ghost_values();
-    forces.correct(context, nodal_vectors(change));
+    for (const auto &force : forces)
+      force->correct(context, nodal_vectors(change));
     hanging_nodes->distribute(change, 2);
     change.compress(dealii::VectorOperation::add);
     change.update_ghost_values();

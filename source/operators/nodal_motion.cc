@@ -96,15 +96,20 @@ namespace CaissonMPM
                        Contact          &contact)
   {
     enter(Stage::corrected);
-    if (!forces.have_implicit())
+    std::vector<NodalForce *> implicit;
+    for (const auto &force : forces)
+      if (force->is_active() && force->is_implicit())
+        implicit.push_back(force.get());
+    if (implicit.empty())
       return;
     // 1. predict: v+ with the forces of the last step, and constrained
     momentum.predict(predicted);
     momentum.constrain(size.seconds, body_velocity, constraints, predicted);
     // 2. compute the forces that follow from it
-    forces.solve(nodal_vectors(predicted),
-                 contact.corners().views(),
-                 momentum.scaled_mass());
+    for (NodalForce *const force : implicit)
+      force->solve(nodal_vectors(predicted),
+                   contact.corners().views(),
+                   momentum.scaled_mass());
     // 3. correct v+ by their change
     momentum.correct({*kernels, step, soil.points, soil.grid, time}, forces);
     contact.corners().add_forces(step, forces);

@@ -54,7 +54,8 @@ namespace CaissonMPM
         }
     result.forces += missing_work(dt, constraints, strain);
     // of what this rank's points bring, to all of their nodes
-    result.load       = forces.work(dt, nodal_vectors(constrained_old), strain);
+    for (const auto &force : forces)
+      result.load += force->work(dt, nodal_vectors(constrained_old), strain);
     result.body       = reactions.contact.work;
     result.prescribed = reactions.prescribed.work;
     for (std::size_t k = 0; k < n; ++k)

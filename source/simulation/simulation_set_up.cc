@@ -84,7 +84,8 @@ namespace CaissonMPM
     generator.check_parameters();
     boundary_conditions.check_parameters(lines);
     water->check_parameters();
-    nodal_forces.check_parameters();
+    for (const auto &force : nodal_forces)
+      force->check_parameters();
     nodal_motion.choose_stress_update(time_step.has_inertia_tolerance());
     time_step.set_strain_from_new_velocities(
       !nodal_motion.settings().uses_musl());
@@ -168,7 +169,8 @@ namespace CaissonMPM
     recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
     points.keep_user_state(soil.n_user_state(), soil.user_materials());
-    nodal_forces.initialize(soil.mass_scaling());
+    for (const auto &force : nodal_forces)
+      force->initialize(soil.mass_scaling());
     body.compute_weight(mass_of_body(), soil);
   }
 

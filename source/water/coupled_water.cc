@@ -72,7 +72,7 @@ namespace CaissonMPM
     projection.register_totals(scene.totals);
     scene.totals.keep("water_unbalanced", unbalanced);
     scene.totals.keep("water_through_surfaces", through_surfaces);
-    scene.forces.add(std::make_unique<CoupledPressureForce>(*this));
+    scene.forces.push_back(std::make_unique<CoupledPressureForce>(*this));
   }
 
   // ------------------------------------------------------------ parameters

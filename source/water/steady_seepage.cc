@@ -53,7 +53,7 @@ namespace CaissonMPM
   {
     traits_.uses_permeability = flows;
     traits_.resists_body      = !flows || (lid && lid->is_sealed());
-    scene.forces.add(std::make_unique<SeepageForce>(*this));
+    scene.forces.push_back(std::make_unique<SeepageForce>(*this));
   }
 
   void

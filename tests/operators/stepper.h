@@ -33,7 +33,7 @@ struct Stepper
 {
   Scene                          scene;
   NodalMotion                    motion;
-  NodalForces                    forces;
+  NodalForces                    forces = make_nodal_forces();
   Contact                        contact;
   NodalConstraints               constraints;
   std::vector<Kernels::Material> materials;
@@ -46,7 +46,7 @@ struct Stepper
                   scene.boundary_conditions,
                   scene.grid.hanging_nodes()}
   {
-    forces.add(std::make_unique<ExcessPressure>());
+    forces.push_back(std::make_unique<ExcessPressure>());
     auto &prm = dealii::ParameterAcceptor::prm;
     prm.parse_input_from_string(method);
     dealii::ParameterAcceptor::parse_all_parameters(prm);
@@ -58,7 +58,8 @@ struct Stepper
     contact.initialize(scene.grid, scene.body.surface());
     scene.boundary_conditions.initialize(scene.grid);
     motion.initialize(scene.grid);
-    forces.initialize(1.);
+    for (const auto &force : forces)
+      force->initialize(1.);
     scene.grid.prepare_motion(0.);
   }
 

@@ -118,62 +118,14 @@ namespace CaissonMPM
     std::vector<Kernels::NodalVector> force; // empty unless the force acts
   };
 
-  /**
-   * Owns the nodal forces and treats them as one. A new force is registered by
-   * one line in the constructor, or by add() if it needs an object that the
-   * caller owns, which must then outlive this one. Not collective.
-   */
-  class NodalForces
-  {
-  public:
-    NodalForces();
+  /** All forces of a run. What adds one that needs an object of its own must
+   * let this object live as long. */
+  using NodalForces = std::vector<std::unique_ptr<NodalForce>>;
 
-    /** Add a force, before parameters are parsed. */
-    void
-    add(std::unique_ptr<NodalForce> force);
-
-    /** Throws BadInput. */
-    void
-    check_parameters() const;
-
-    /** See NodalForce::initialize(). */
-    void
-    initialize(const double mass_scaling);
-
-    /** Find all forces of the step and add them to @p nodes [n_nodes]. */
-    void
-    collect(const ForceContext &context, Kernels::NodalSums *nodes);
-
-    /** Return whether there is an implicit force; see
-     * NodalForce::is_implicit().
-     */
-    bool
-    have_implicit() const;
-
-    /** Compute the implicit forces, see NodalForce::solve(). Collective. */
-    void
-    solve(const Kernels::NodalVector             *velocity,
-          const std::vector<Kernels::CornerView> &corners,
-          const std::vector<double>              &mass);
-
-    /** Find the implicit forces again, and add their change to @p change
-     * [n_nodes]. */
-    void
-    correct(const ForceContext &context, Kernels::NodalVector *change);
-
-    /** Return the sum of NodalForce::at_corner(). */
-    Vector2
-    at_corner(const unsigned int cell, const unsigned int corner) const;
-
-    /** Return the work of all forces, see NodalForce::work(). */
-    double
-    work(const double                dt,
-         const Kernels::NodalVector *start,
-         const Kernels::NodalVector *end) const;
-
-  private:
-    std::vector<std::unique_ptr<NodalForce>> forces;
-  };
+  /** Return the forces that need nothing but their entries: a new one is one
+   * line there. */
+  NodalForces
+  make_nodal_forces();
 } // namespace CaissonMPM
 
 #endif

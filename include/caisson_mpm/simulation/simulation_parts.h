@@ -48,7 +48,7 @@ namespace CaissonMPM
     PointGenerator     generator;
     BoundaryConditions boundary_conditions;
     WaterSettings      water_settings;
-    NodalForces        nodal_forces;
+    NodalForces        nodal_forces = make_nodal_forces();
     NodalMotion        nodal_motion;
     TimeStep           time_step;
     StopRequest        stop_request;
