@@ -15,36 +15,45 @@ namespace CaissonMPM
   {
     namespace po = boost::program_options;
 
+    /** The options of --help, which set the members of @p line. */
     po::options_description
-    visible_options()
+    visible_options(CommandLine &line)
     {
       po::options_description options("Options");
       auto                    add = options.add_options();
       add("set",
-          po::value<std::vector<std::string>>()->value_name(
-            "\"Section/Entry=value\""),
+          po::value(&line.overrides)->value_name("\"Section/Entry=value\""),
           "set one entry, overriding the file; may be repeated");
       add("output-directory",
-          po::value<std::string>()->value_name("DIR"),
+          po::value(&line.output_directory)->value_name("DIR"),
           "write all results into DIR");
       add("print-parameters",
+          po::bool_switch(&line.print_parameters),
           "print all entries with their meaning and the values in effect, and "
           "stop; the output is itself a parameter file");
       add("explain",
-          po::value<std::string>()->value_name("WORD"),
+          po::value(&line.explain)->value_name("WORD"),
           "print the entries with this word in their name or section, for "
           "example friction or \"Rigid body\", and stop");
-      add("validate", "check the input without running it, and stop");
+      add("validate",
+          po::bool_switch(&line.validate),
+          "check the input without running it, and stop");
       add("strict",
+          po::bool_switch(&line.strict),
           "treat warnings of likely mistakes in the input as errors, with "
           "--validate and in a run");
-      add("restart", "continue from the checkpoint in the output directory");
+      add("restart",
+          po::bool_switch(&line.restart),
+          "continue from the checkpoint in the output directory");
       add("overwrite",
+          po::bool_switch(&line.overwrite),
           "remove the results of an earlier run in the output directory, "
           "which are otherwise kept in earlier_1, earlier_2, ...; with "
           "--restart: continue although rows of history.csv are lost");
-      add("version", "print the version and stop");
-      add("help,h", "print this text and stop");
+      add("version",
+          po::bool_switch(&line.version),
+          "print the version and stop");
+      add("help,h", po::bool_switch(&line.help), "print this text and stop");
       return options;
     }
 
@@ -54,7 +63,8 @@ namespace CaissonMPM
     options_near(const std::string &name)
     {
       std::vector<std::string>      names, result;
-      const po::options_description options = visible_options();
+      CommandLine                   unused;
+      const po::options_description options = visible_options(unused);
       for (const auto &known : options.options())
         {
           names.push_back(known->long_name());
@@ -79,34 +89,6 @@ namespace CaissonMPM
              "\n  \"caisson_mpm --help\" lists the options.";
     }
 
-    po::variables_map
-    parse_options(const int argc, const char *const *argv)
-    {
-      po::options_description all = visible_options();
-      all.add_options()("file", po::value<std::vector<std::string>>());
-      po::positional_options_description positional;
-      positional.add("file", -1);
-
-      // No abbreviations: scripts must not depend on which options exist.
-      const int style = po::command_line_style::default_style &
-                        ~po::command_line_style::allow_guessing;
-      po::variables_map result;
-      po::store(po::command_line_parser(argc, argv)
-                  .options(all)
-                  .positional(positional)
-                  .style(style)
-                  .run(),
-                result);
-      return result;
-    }
-
-    template <typename T>
-    T
-    value_or_default(const po::variables_map &options, const std::string &name)
-    {
-      return options.count(name) > 0 ? options[name].as<T>() : T();
-    }
-
     std::string
     single_parameter_file(const std::vector<std::string> &files,
                           const bool                      may_be_missing)
@@ -125,30 +107,34 @@ namespace CaissonMPM
     }
 
     CommandLine
-    to_command_line(const po::variables_map &options)
+    parse_options(const int argc, const char *const *argv)
     {
-      CommandLine result;
-      result.overrides =
-        value_or_default<std::vector<std::string>>(options, "set");
-      result.output_directory =
-        value_or_default<std::string>(options, "output-directory");
-      result.explain = value_or_default<std::string>(options, "explain");
-      if (options.count("explain") > 0 &&
+      CommandLine              result;
+      std::vector<std::string> files;
+      po::options_description  all = visible_options(result);
+      all.add_options()("file", po::value(&files));
+      po::positional_options_description positional;
+      positional.add("file", -1);
+
+      // No abbreviations: scripts must not depend on which options exist.
+      const int style = po::command_line_style::default_style &
+                        ~po::command_line_style::allow_guessing;
+      po::variables_map given;
+      po::store(po::command_line_parser(argc, argv)
+                  .options(all)
+                  .positional(positional)
+                  .style(style)
+                  .run(),
+                given);
+      po::notify(given);
+      if (given.count("explain") > 0 &&
           result.explain.find_first_not_of(' ') == std::string::npos)
         throw BadInput(
           "--explain needs a word, for example --explain friction; "
           "--print-parameters prints all entries.");
-      result.print_parameters = options.count("print-parameters") > 0;
-      result.validate         = options.count("validate") > 0;
-      result.strict           = options.count("strict") > 0;
-      result.restart          = options.count("restart") > 0;
-      result.overwrite        = options.count("overwrite") > 0;
-      result.version          = options.count("version") > 0;
-      result.help             = options.count("help") > 0;
       if (!result.help && !result.version)
         result.parameter_file = single_parameter_file(
-          value_or_default<std::vector<std::string>>(options, "file"),
-          result.print_parameters || !result.explain.empty());
+          files, result.print_parameters || !result.explain.empty());
       return result;
     }
   } // namespace
@@ -158,7 +144,7 @@ namespace CaissonMPM
   {
     try
       {
-        CommandLine result = to_command_line(parse_options(argc, argv));
+        CommandLine result = parse_options(argc, argv);
         for (int i = 1; i < argc; ++i)
           result.text += (i > 1 ? " " : "") + std::string(argv[i]);
         return result;
@@ -178,12 +164,13 @@ namespace CaissonMPM
   std::string
   usage()
   {
+    CommandLine        unused;
     std::ostringstream text;
     text
       << "caisson_mpm: suction caissons pushed into sand, by an "
          "axisymmetric material point method.\n\n"
          "Usage: caisson_mpm FILE.prm [options]\n\n"
-      << visible_options()
+      << visible_options(unused)
       << "\nExamples are in prm/, from prm/tutorial.prm on; the documentation "
          "is in doc/,\nfrom doc/quick_start.md on. Where the program is "
          "installed, \"caisson scenes\"\nlists the examples.\n"
