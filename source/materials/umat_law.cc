@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 namespace CaissonMPM
@@ -18,15 +17,6 @@ namespace CaissonMPM
     namespace UserState = Kernels::UserState;
 
     constexpr auto nothing = UmatArgument::n_arguments;
-
-    std::string
-    path_of(const std::string &directory, const std::string &library)
-    {
-      namespace fs = std::filesystem;
-      return fs::absolute(fs::path(directory) / library)
-        .lexically_normal()
-        .string();
-    }
 
     std::string
     list_text(const double *list, const std::size_t n)
@@ -146,7 +136,7 @@ namespace CaissonMPM
     : settings(settings)
     , section(section)
     , entry(section + "/Library = " + settings.library)
-    , library(path_of(directory, settings.library), settings.routine, entry)
+    , library(load_user_library(settings, directory, entry))
     , arguments(settings.n_components,
                 settings.n_variables,
                 settings.properties.size())
@@ -200,7 +190,7 @@ namespace CaissonMPM
     point = &p;
     prepare(p);
     std::string fault =
-      guarded_call(*this, [this]() { arguments.call_umat(library.umat()); });
+      guarded_call(*this, [this]() { arguments.call_umat(library.umat); });
     if (fault.empty())
       fault = find_fault();
     if (fault.empty())
@@ -215,7 +205,7 @@ namespace CaissonMPM
                       const double id,
                       double      *state)
   {
-    if (library.sdvini() == nullptr || settings.n_variables == 0)
+    if (library.sdvini == nullptr || settings.n_variables == 0)
       return;
     double *const variables = state + UserState::variables;
     const Phase   before    = phase;
@@ -225,9 +215,8 @@ namespace CaissonMPM
     std::copy_n(variables,
                 settings.n_variables,
                 arguments.given(UmatArgument::statev));
-    std::string fault = guarded_call(*this, [this]() {
-      arguments.call_sdvini(library.sdvini());
-    });
+    std::string fault =
+      guarded_call(*this, [this]() { arguments.call_sdvini(library.sdvini); });
     if (fault.empty())
       fault = find_fault();
     if (!fault.empty())

@@ -2,6 +2,7 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/fingerprint.h>
 #include <caisson_mpm/base/guarded_call.h>
+#include <caisson_mpm/base/text_file.h>
 #include <caisson_mpm/materials/user_library.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -10,8 +11,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace CaissonMPM
 {
@@ -31,15 +30,6 @@ namespace CaissonMPM
           text, size, "%s: while it is loaded, the library %s.", entry, what);
       }
     };
-
-    std::string
-    content_of(const std::string &path)
-    {
-      std::ifstream      file(path, std::ios::binary);
-      std::ostringstream content;
-      content << file.rdbuf();
-      return content.str();
-    }
 
     void *
     load(const std::string &path, const std::string &entry)
@@ -89,19 +79,24 @@ namespace CaissonMPM
     }
   } // namespace
 
-  UserLibrary::UserLibrary(const std::string &path,
-                           const std::string &routine,
-                           const std::string &entry)
+  UserLibrary
+  load_user_library(const UmatSettings &settings,
+                    const std::string  &directory,
+                    const std::string  &entry)
   {
-    void *const handle = load(path, entry);
-    umat_              = find(handle, routine);
-    sdvini_            = find(handle, "sdvini");
-    if (umat_ == nullptr)
-      throw BadInput(entry + " has no subroutine " + routine + " (symbol " +
-                     routine +
+    namespace fs = std::filesystem;
+    const std::string path =
+      fs::absolute(fs::path(directory) / settings.library)
+        .lexically_normal()
+        .string();
+    void *const   handle = load(path, entry);
+    const Routine umat   = find(handle, settings.routine);
+    if (umat == nullptr)
+      throw BadInput(entry + " has no subroutine " + settings.routine +
+                     " (symbol " + settings.routine +
                      "_). Set Routine to the name of its UMAT, or to "
                      "MODULE::NAME where it stands in a module of Fortran; in "
                      "C++ it is extern \"C\".");
-    checksum_ = fingerprint_of(content_of(path));
+    return {umat, find(handle, "sdvini"), fingerprint_of(read_text(path))};
   }
 } // namespace CaissonMPM

@@ -280,8 +280,8 @@ namespace CaissonMPM
   }
 
   Checkpoint::Checkpoint(const std::string &directory)
-    : directory(directory)
-    , info(read_info(directory))
+    : info(read_info(directory))
+    , directory(directory)
   {}
 
   void

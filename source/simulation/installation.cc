@@ -60,7 +60,7 @@ namespace CaissonMPM
                      " has no checkpoint (no file checkpoint.info). Run the "
                      "installation first: it writes one at its end.");
     checkpoint_.emplace(directory_);
-    changes = changes_between(checkpoint_->fingerprint(), physics);
+    changes = changes_between(checkpoint_->info.fingerprint, physics);
     refuse_changes();
   }
 
@@ -105,7 +105,7 @@ namespace CaissonMPM
   Installation::end_of_motion() const
   {
     const auto number = [this](const std::string &name) {
-      return number_named(name, checkpoint_->state()).value_or(0.);
+      return number_named(name, checkpoint_->info.state).value_or(0.);
     };
     return {number("motion_travel"),
             number("motion_velocity"),
@@ -115,7 +115,7 @@ namespace CaissonMPM
   std::string
   Installation::water_level() const
   {
-    return value_of("Water/Level", checkpoint_->fingerprint());
+    return value_of("Water/Level", checkpoint_->info.fingerprint);
   }
 
   std::vector<std::string>

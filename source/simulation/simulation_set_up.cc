@@ -46,19 +46,19 @@ namespace CaissonMPM
         const Checkpoint checkpoint(recorder.output_directory());
         checkpoint.check_fingerprint(physics() + soil.checksums_of_libraries());
         const auto number = [&](const std::string &name) {
-          return number_named(name, checkpoint.state()).value_or(0.);
+          return number_named(name, checkpoint.info.state).value_or(0.);
         };
         begin_at({number("travel_at_start"),
                   number("velocity_at_start"),
                   number("load_at_start")},
-                 checkpoint.state());
+                 checkpoint.info.state);
       }
     else if (installation.is_given())
       {
         installation.open(recorder.output_directory(),
                           physics() + soil.checksums_of_libraries());
         begin_at(installation.end_of_motion(),
-                 installation.checkpoint().state());
+                 installation.checkpoint().info.state);
       }
   }
 
@@ -500,14 +500,14 @@ namespace CaissonMPM
   {
     const Checkpoint checkpoint(recorder.output_directory());
     checkpoint.read_points(grid, points);
-    const NamedNumbers &state   = checkpoint.state();
+    const NamedNumbers &state   = checkpoint.info.state;
     const std::string   missing = totals.resume(state, grid.is_first_rank());
     if (!missing.empty())
       throw BadInput("the checkpoint in " + recorder.output_directory() +
                      " lacks the entry " + missing +
                      ". Start the run again in another directory.");
     timer.resume(state);
-    recorder.remember(checkpoint.warnings());
+    recorder.remember(checkpoint.info.warnings);
     grid.move_to(body.motion().travel());
     scatter(grid, checkpoint.read_fields(), water->fields());
     if (grid.n_ranks() > 1)
@@ -520,7 +520,7 @@ namespace CaissonMPM
   {
     const Checkpoint &checkpoint = installation.checkpoint();
     checkpoint.read_points(grid, points);
-    totals.take_over(checkpoint.state());
+    totals.take_over(checkpoint.info.state);
     if (grid.n_ranks() > 1)
       repartition(points.cell_costs());
     water->continue_after(installation.water_level(), checkpoint.read_fields());

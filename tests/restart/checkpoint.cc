@@ -115,13 +115,13 @@ check_contents(Scene &s)
                 "yes" :
                 "no");
   std::printf("the same state: %s\n",
-              checkpoint.state() == NamedNumbers{{"time", .7},
+              checkpoint.info.state == NamedNumbers{{"time", .7},
                                                  {"third", 1. / 3.},
                                                  {"large", 1e300}} ?
                 "yes" :
                 "no");
   std::printf("the same warnings: %s\n",
-              checkpoint.warnings() == warnings ? "yes" : "no");
+              checkpoint.info.warnings == warnings ? "yes" : "no");
   std::printf("%s\n", read(s, "a = 1\nb = 3\n").c_str());
 }
 

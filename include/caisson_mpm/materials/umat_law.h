@@ -106,7 +106,7 @@ namespace CaissonMPM
     const std::string &
     checksum() const
     {
-      return library.checksum();
+      return library.checksum;
     }
 
     /** See Kernels::UserLaw. */

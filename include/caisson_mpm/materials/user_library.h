@@ -6,51 +6,31 @@
 #define caisson_mpm_materials_user_library_h
 
 #include <caisson_mpm/materials/umat_arguments.h>
+#include <caisson_mpm/materials/umat_settings.h>
 
 #include <string>
 
 namespace CaissonMPM
 {
-  /**
-   * A library that stays loaded until the program ends. It finds the routines
-   * of abaqus_routines.cc in the program.
-   */
-  class UserLibrary
+  /** A library that stays loaded until the program ends. */
+  struct UserLibrary
   {
-  public:
-    /** Load the library. @p routine is the name of its UMAT, or MODULE::NAME;
-     * @p entry is the entry that names the library, with its value, for
-     * messages. Throws BadInput where it cannot be loaded, or has no such
-     * routine.
-     */
-    UserLibrary(const std::string &path,
-                const std::string &routine,
-                const std::string &entry);
-
-    Routine
-    umat() const
-    {
-      return umat_;
-    }
-
-    /** SDVINI, which sets the STATEV of a point at the start; null without. */
-    Routine
-    sdvini() const
-    {
-      return sdvini_;
-    }
-
-    /** Return digits that differ where the content of the file does. */
-    const std::string &
-    checksum() const
-    {
-      return checksum_;
-    }
-
-  private:
-    Routine     umat_, sdvini_;
-    std::string checksum_;
+    Routine umat;
+    Routine sdvini; // sets the STATEV of a point at the start; null without
+    std::string
+      checksum; // digits that differ where the content of the file does
   };
+
+  /**
+   * Load the library of the settings, whose path is relative to @p directory. It
+   * finds the routines of abaqus_routines.cc in the program. @p entry is the
+   * entry that names it, with its value, for messages. Throws BadInput where it
+   * cannot be loaded, or has no routine of the name in the settings.
+   */
+  UserLibrary
+  load_user_library(const UmatSettings &settings,
+                    const std::string  &directory,
+                    const std::string  &entry);
 } // namespace CaissonMPM
 
 #endif

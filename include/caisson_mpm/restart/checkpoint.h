@@ -63,24 +63,6 @@ namespace CaissonMPM
       std::string              fingerprint; // that it was written with
     };
 
-    const NamedNumbers &
-    state() const
-    {
-      return info.state;
-    }
-
-    const std::vector<std::string> &
-    warnings() const
-    {
-      return info.warnings;
-    }
-
-    const std::string &
-    fingerprint() const
-    {
-      return info.fingerprint;
-    }
-
     /** Throw BadInput, with the first line that differs, where @p fingerprint
      * is not the one it was written with. */
     void
@@ -100,9 +82,10 @@ namespace CaissonMPM
     NamedFields
     read_fields() const;
 
+    const Info info;
+
   private:
-    std::string directory;
-    Info        info;
+    const std::string directory;
   };
 } // namespace CaissonMPM
 

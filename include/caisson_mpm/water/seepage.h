@@ -52,12 +52,6 @@ namespace CaissonMPM
       return phi;
     }
 
-    const NodalData &
-    field() const
-    {
-      return phi;
-    }
-
     /** int k grad phi grad N over the soil: what flows out of the soil at the
      * nodes of the plug, and minus what flows in at open ones. [n_nodes], m2/s
      * per radian */
