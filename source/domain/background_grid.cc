@@ -324,6 +324,30 @@ namespace CaissonMPM
     return iterators[cell]->at_boundary(face);
   }
 
+  unsigned int
+  BackgroundGrid::n_body_cells() const
+  {
+    unsigned int n = 0;
+    for (unsigned int c = 0; c < n_global_cells(); ++c)
+      n += lines_.is_body_cell(GlobalCell(c));
+    return n;
+  }
+
+  double
+  BackgroundGrid::mass_of_body(const double density) const
+  {
+    double mass = 0.;
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      if (rigid[c] && is_owned(c))
+        {
+          const auto  &g = geometry(c);
+          const double r = g.left + .5 * g.width;
+          mass += density * ((axisymmetric() ? 2. * pi * r : 1.) * g.width *
+                             height_of(g));
+        }
+    return Utilities::MPI::sum(mass, communicator());
+  }
+
   // ------------------------------------------------------------ motion
 
   void

@@ -325,25 +325,18 @@ namespace CaissonMPM
   void
   Recorder::print_header(const ParameterOrigins &input)
   {
-    known.assumed   = input.assumed();
-    double own_mass = 0.;
-    for (const BodyPoint &p : parts.body_points)
-      own_mass += p.mass;
-    const MPI_Comm communicator = parts.grid.communicator();
-    const double   mass         = Utilities::MPI::sum(own_mass, communicator);
-    const auto     sum          = [communicator](const unsigned long value) {
-      return to_text(Utilities::MPI::sum(value, communicator));
-    };
-    const std::string n_points      = sum(parts.points.n_points()),
-                      n_body_points = sum(parts.body_points.size());
-    Console::Lines first            = {
-                 {"caisson_mpm",
-                  std::string(program_version()) + ", deal.II " DEAL_II_PACKAGE_VERSION},
-                 {"scene", known.scene_file},
-                 {"output", directory},
-                 {"kernels", known.kernels + ", " + to_text(n_lanes) + " lanes"},
-                 {"ranks", to_text(parts.grid.n_ranks())},
-                 {"step limited by", parts.time_step.reason()}};
+    known.assumed = input.assumed();
+    const unsigned long n_points =
+      Utilities::MPI::sum<unsigned long>(parts.points.n_points(),
+                                         parts.grid.communicator());
+    Console::Lines first = {
+      {"caisson_mpm",
+       std::string(program_version()) + ", deal.II " DEAL_II_PACKAGE_VERSION},
+      {"scene", known.scene_file},
+      {"output", directory},
+      {"kernels", known.kernels + ", " + to_text(n_lanes) + " lanes"},
+      {"ranks", to_text(parts.grid.n_ranks())},
+      {"step limited by", parts.time_step.reason()}};
     if (const double n_steps = steps_left(); std::isfinite(n_steps))
       first.emplace_back("steps", "about " + rough(n_steps));
     if (!known.installation.empty())
@@ -353,8 +346,8 @@ namespace CaissonMPM
       {"title", known.title},
       {"grid", parts.grid.lines().description()},
       {"material points",
-       n_points + ", and " + n_body_points + " of the body (" +
-         to_text(mass / 1000., 6) + " t)"},
+       to_text(n_points) + ", and " + to_text(parts.grid.n_body_cells()) +
+         " of the body (" + to_text(parts.body.mass() / 1000., 6) + " t)"},
       {"method", parts.nodal_motion.settings().description()},
       {"time step",
        to_text(parts.clock.step_size, 6) + " s, mass scaling " +

@@ -136,14 +136,13 @@ namespace CaissonMPM
     Json
     about_size(const SimulationParts &parts, const RunFacts &facts)
     {
-      const auto sum = [&parts](const unsigned long value) {
-        return Utilities::MPI::sum(value, parts.grid.communicator());
-      };
+      const unsigned long n_points = parts.points.n_points();
       return {{"ranks", parts.grid.n_ranks()},
               {"repartitions", facts.n_repartitions},
-              {"material_points", sum(parts.points.n_points())},
+              {"material_points",
+               Utilities::MPI::sum(n_points, parts.grid.communicator())},
               {"cells", parts.grid.n_global_cells()},
-              {"body_points", sum(parts.body_points.size())},
+              {"body_points", parts.grid.n_body_cells()},
               {"steps", facts.n_steps}};
     }
 
@@ -171,16 +170,13 @@ namespace CaissonMPM
     Json
     masses(const SimulationParts &parts)
     {
-      double body = 0., soil = 0.;
-      for (const BodyPoint &p : parts.body_points)
-        body += p.mass;
+      double soil = 0.;
       parts.points.for_each([&](const MaterialPoint &p, const unsigned int) {
         soil += parts.grid.circumference() * p.mass;
       });
-      const auto sum = [&parts](const double value) {
-        return Utilities::MPI::sum(value, parts.grid.communicator());
-      };
-      return {{"body_mass_kg", sum(body)}, {"soil_mass_kg", sum(soil)}};
+      return {{"body_mass_kg", parts.body.mass()},
+              {"soil_mass_kg",
+               Utilities::MPI::sum(soil, parts.grid.communicator())}};
     }
 
     Json

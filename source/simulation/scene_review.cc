@@ -499,7 +499,7 @@ namespace CaissonMPM
     // a hundredth of the least that an installation would meet
     constexpr double  part   = .01;
     const std::string weight = "Rigid body/Submerged weight";
-    const double      own    = -parts.soil.gravity[vertical] * body_mass;
+    const double      own = -parts.soil.gravity[vertical] * parts.body.mass();
     if (origins.is_set(weight) && parts.body.submerged_weight() < part * own)
       doubt(weight,
             parts.body.submerged_weight(),

@@ -28,7 +28,6 @@ namespace CaissonMPM
     water_settings.parse_parameters_call_back.connect(
       [this]() { choose_water(); });
     grid.signals.after_change.connect([this]() {
-      body_points = generate_body_points(grid, body);
       contact.initialize(grid, body.surface());
       recorder.find_walls();
       boundary_conditions.initialize(grid);

@@ -166,12 +166,12 @@ namespace CaissonMPM
     body.motion().register_totals(totals);
     body.motion().start();
     grid.create_mesh();
+    body.compute_weight(grid.mass_of_body(body.density), soil);
     recorder.register_walls(totals);
     grid.move_to(body.motion().travel());
     points.keep_user_state(soil.n_user_state(), soil.user_materials());
     for (const auto &force : nodal_forces)
       force->initialize(soil.mass_scaling());
-    body.compute_weight(mass_of_body(), soil);
   }
 
   void
@@ -188,15 +188,6 @@ namespace CaissonMPM
       body.motion().usual_velocity() / (*mach_number * slowest_wave);
     if (factor > 1.)
       body.motion().slow_down(factor);
-  }
-
-  double
-  Simulation::mass_of_body() const
-  {
-    double mass = 0.;
-    for (const BodyPoint &p : body_points)
-      mass += p.mass;
-    return Utilities::MPI::sum(mass, grid.communicator());
   }
 
   RunCost
@@ -532,7 +523,6 @@ namespace CaissonMPM
   Simulation::review(ParameterOrigins &origins) const
   {
     SceneReview(*this,
-                mass_of_body(),
                 slowest_and_fastest_wave().first,
                 number_of_steps(),
                 origins)

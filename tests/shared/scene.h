@@ -8,7 +8,6 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/materials/soil.h>

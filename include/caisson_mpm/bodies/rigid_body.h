@@ -86,6 +86,13 @@ namespace CaissonMPM
     void
     compute_weight(const double mass, const Soil &soil);
 
+    /** That mass, after compute_weight(). Units: kg. */
+    double
+    mass() const
+    {
+      return motion().surroundings.mass;
+    }
+
     /** The weight of the body in water, or in air where the soil is dry, on the
      * whole circumference. Units: N. */
     double

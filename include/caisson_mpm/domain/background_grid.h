@@ -159,6 +159,13 @@ namespace CaissonMPM
     {
       return node_sides.size();
     }
+    /** Return the number of cells of the body, of all ranks. */
+    unsigned int
+    n_body_cells() const;
+    /** Return the mass of a body of this density, which is that of its cells at
+     * the start of the travel. Collective. Units: kg/m3; kg. */
+    double
+    mass_of_body(const double density) const;
     /** Return the number of nodes that this rank owns: those with a smaller
      * local number. What is summed over the nodes of all ranks must be summed
      * over these. */

@@ -23,16 +23,14 @@ namespace CaissonMPM
   class SceneReview
   {
   public:
-    /** The warnings go to @p origins. The mass of the body is that of its cells
-     * (kg), the speed of waves the least one of all layers (m/s), and the
-     * number of steps infinite where the end is not known. */
+    /** The warnings go to @p origins. The speed of waves is the least one of all
+     * layers (m/s), and the number of steps infinite where the end is not
+     * known. */
     SceneReview(const SimulationParts &parts,
-                const double           body_mass,
                 const double           wave_speed,
                 const double           n_steps,
                 ParameterOrigins      &origins)
       : parts(parts)
-      , body_mass(body_mass)
       , wave_speed(wave_speed)
       , n_steps(n_steps)
       , origins(origins)
@@ -132,7 +130,7 @@ namespace CaissonMPM
           const std::string &text);
 
     const SimulationParts &parts;
-    const double           body_mass, wave_speed, n_steps;
+    const double           wave_speed, n_steps;
     ParameterOrigins      &origins;
   };
 } // namespace CaissonMPM

@@ -97,10 +97,6 @@ namespace CaissonMPM
     check_inertia_tolerance() const;
     void
     place_lines();
-    /** Return the mass of the body's cells on all ranks. Collective. Units: kg.
-     */
-    double
-    mass_of_body() const;
     void
     make_mesh();
     /** Slow a prescribed motion down to its largest Mach number. */

@@ -9,7 +9,6 @@
 #include <caisson_mpm/base/timing.h>
 #include <caisson_mpm/bodies/rigid_body.h>
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/domain/body_points.h>
 #include <caisson_mpm/domain/material_points.h>
 #include <caisson_mpm/domain/point_generator.h>
 #include <caisson_mpm/kernels/layout.h>
@@ -56,7 +55,6 @@ namespace CaissonMPM
     // state
     Clock                          clock;
     MaterialPoints                 points;
-    std::vector<BodyPoint>         body_points;
     Contact                        contact;
     std::vector<Kernels::Material> materials;
     EnergyBalance                  energy;
