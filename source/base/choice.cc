@@ -7,7 +7,6 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <cstdlib>
 #include <limits>
 
 namespace CaissonMPM
@@ -16,17 +15,6 @@ namespace CaissonMPM
 
   namespace
   {
-    /** Return the number that stands alone in its text, if there is one. */
-    std::optional<double>
-    number_in(const std::string &text)
-    {
-      char        *end   = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      if (text.empty() || *end != '\0')
-        return {};
-      return value;
-    }
-
     /** "0" and "90" of "[Double 0...90 (inclusive)]": deal.II tells no bounds
      * in another way. Those of a list are the last ones. */
     std::pair<std::string, std::string>

@@ -36,6 +36,16 @@ namespace CaissonMPM
     return to_text(static_cast<unsigned long>(std::round(value / unit) * unit));
   }
 
+  std::optional<double>
+  number_in(const std::string &text)
+  {
+    char        *end   = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0')
+      return {};
+    return value;
+  }
+
   bool
   is_control(const std::string &text, const std::size_t place)
   {

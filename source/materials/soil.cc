@@ -60,12 +60,11 @@ namespace CaissonMPM
       "The velocity at the start is given by two expressions in r, z and pi, "
       "for its r and z components, with a semicolon between them.");
     parse_parameters_call_back.connect([this]() {
-      const auto components = Utilities::split_string_list(gravity_text);
-      gravity               = {{Utilities::string_to_double(components[0]),
-                                Utilities::string_to_double(components[1])}};
-      const auto stresses   = Utilities::split_string_list(uniform_text);
-      for (unsigned int c = 0; c < 4; ++c)
-        uniform_stress[c] = Utilities::string_to_double(stresses[c]);
+      const auto numbers = [](const std::string &text) {
+        return Utilities::string_to_double(Utilities::split_string_list(text));
+      };
+      std::copy_n(numbers(gravity_text).begin(), 2, gravity.begin());
+      std::copy_n(numbers(uniform_text).begin(), 4, uniform_stress.begin());
     });
     declare_layers(1);
   }

@@ -2,8 +2,8 @@
 #include <caisson_mpm/base/exceptions.h>
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/base/text_file.h>
-#include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/observations.h>
+#include <caisson_mpm/output/point_quantities.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
@@ -202,6 +202,18 @@ namespace CaissonMPM
         throw BadInput(place + "the name \"" + name +
                        "\" is already used by another observation or a column "
                        "of history.csv. Choose another one.");
+    }
+
+    double
+    parse_number(const std::string &text,
+                 const std::string &place,
+                 const std::string &what)
+    {
+      const auto value = number_in(text);
+      if (!value || !std::isfinite(*value))
+        throw BadInput(place + "the " + what + " \"" + text +
+                       "\" must be a number.");
+      return *value;
     }
 
     Point<2>

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <caisson_mpm/base/exceptions.h>
+#include <caisson_mpm/base/nearest_names.h>
 #include <caisson_mpm/kernels/layout.h>
-#include <caisson_mpm/output/check_text.h>
 #include <caisson_mpm/output/point_quantities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace CaissonMPM
 {
+  void
+  check_known(const std::string              &name,
+              const std::vector<std::string> &known,
+              const std::string              &place,
+              const std::string              &kind)
+  {
+    if (std::find(known.begin(), known.end(), name) != known.end())
+      return;
+    throw BadInput(place + "there is no " + kind + " \"" + name + "\", only " +
+                   boost::algorithm::join(known, ", ") + "." +
+                   did_you_mean(nearest_names(name, known)));
+  }
+
   namespace
   {
     using P = const MaterialPoint &;

@@ -7,8 +7,6 @@
 #include <caisson_mpm/base/text.h>
 #include <caisson_mpm/simulation/scene_review.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -53,33 +51,13 @@ namespace CaissonMPM
 
     const std::string advice = ". Check the unit, Pa: 1 kPa is 1000 Pa, and "
                                "1 MPa is 1e6 Pa.";
-
-    bool
-    is_in_pascals(const EntryRecord &entry)
-    {
-      return entry.unit == "Pa";
-    }
-
-    /** The number that an entry has; 0 where it has none, as an expression. */
-    double
-    number_of(const EntryRecord &entry)
-    {
-      try
-        {
-          return Utilities::string_to_double(entry.value());
-        }
-      catch (const ExceptionBase &)
-        {
-          return 0.;
-        }
-    }
   } // namespace
 
   void
   SceneReview::stresses()
   {
     for (const EntryRecord &entry : declared_entries())
-      if (is_in_pascals(entry) && origins.is_set(entry.path))
+      if (entry.unit == "Pa" && origins.is_set(entry.path))
         {
           const bool is_of_layer =
             entry.subsections.size() == 2 && entry.subsections[0] == "Soil";
@@ -90,7 +68,7 @@ namespace CaissonMPM
                    *parts.soil.material(*soil).law_value(entry.name),
                    parts.soil.material(*soil).friction_angle);
           else if (!is_of_layer)
-            stress(entry, number_of(entry), {});
+            stress(entry, number_in(entry.value()).value_or(0.), {});
         }
     stress_at_start();
   }

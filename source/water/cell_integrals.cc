@@ -80,4 +80,64 @@ namespace CaissonMPM
       result += weight(q);
     return result;
   }
+
+  // ------------------------------------------------------------ the tip
+
+  void
+  TipIntegral::reinit(const BackgroundGrid &grid,
+                      const BodyShape      &shape,
+                      const Mudline        &mudline)
+  {
+    cells.clear();
+    of_cylinder = shape.expands();
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        const int beyond = grid.neighbor(cell, of_cylinder ? 0 : 3);
+        if (grid.is_owned(cell) && !grid.is_rigid(cell) && beyond >= 0 &&
+            grid.is_rigid(beyond) &&
+            (of_cylinder || mudline.side_of(cell) == Mudline::Side::body))
+          cells.push_back(cell);
+      }
+    ledges.clear();
+    if (shape.n_parts() > 1)
+      find_ledges(grid, shape, mudline);
+  }
+
+  void
+  TipIntegral::find_ledges(const BackgroundGrid &grid,
+                           const BodyShape      &shape,
+                           const Mudline        &mudline)
+  {
+    for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
+      {
+        if (!grid.is_owned(cell) || grid.is_rigid(cell) ||
+            mudline.side_of(cell) == Mudline::Side::body)
+          continue;
+        const bool is_inside = mudline.side_of(cell) == Mudline::Side::plug;
+        const int  above     = grid.neighbor(cell, 3),
+                  below      = grid.neighbor(cell, 2);
+        const auto areas =
+          areas_of_side(grid.geometry(cell), grid.axisymmetric());
+        if (above >= 0 && grid.is_rigid(above) && !grid.is_lid(above))
+          ledges.push_back({cell, 2, is_inside, areas});
+        // not what is above the body
+        const auto start =
+          grid.lines().initial_geometry(grid.global_number(cell));
+        if (below >= 0 && grid.is_rigid(below) &&
+            start.bottom_left < shape.top() - 1e-9)
+          ledges.push_back({cell, 0, is_inside, {{-areas[0], -areas[1]}}});
+      }
+  }
+
+  std::array<double, 2>
+  TipIntegral::areas_at_tip(const BackgroundGrid &grid,
+                            const unsigned int    cell) const
+  {
+    const Kernels::CellGeometry &g        = grid.geometry(cell);
+    const bool                   is_round = grid.axisymmetric();
+    if (!of_cylinder)
+      return areas_of_side(g, is_round);
+    const double half = .5 * (is_round ? g.left : 1.) * g.height_left;
+    return {{half, half}};
+  }
 } // namespace CaissonMPM

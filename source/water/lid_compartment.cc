@@ -14,8 +14,9 @@ namespace CaissonMPM
     // From this share of the area on, the soil bears on the whole lid.
     constexpr double full_lid = .9;
 
-    // Of the radius, over which a rise of the plug is measured.
-    constexpr double window_of_lift = .04;
+    // Of the radius, over which a rise of the plug is measured; and of the
+    // penetration, which a plug that is lifted rises.
+    constexpr double window_of_lift = .04, lifted = .5;
   } // namespace
 
   LidCompartment::LidCompartment(const WaterScene &scene)
@@ -282,5 +283,59 @@ namespace CaissonMPM
   {
     return scene.body.shape().lower_face_of_lid() -
            scene.body.motion().travel();
+  }
+
+  // ------------------------------------------------------------ feasibility
+
+  void
+  Feasibility::update(const double penetration,
+                      const double extra_heave,
+                      const double suction,
+                      const double gradient,
+                      const double window)
+  {
+    if (suction <= 0.)
+      at = -1.;
+    else if (piping < 0. && gradient >= 1.)
+      piping = penetration;
+    if (suction <= 0. || (at >= 0. && penetration < at + window))
+      return;
+    const double rise = extra_heave - heave_there;
+    if (at >= 0. && lift < 0. && rise > lifted * (penetration - at))
+      lift = at;
+    at          = penetration;
+    heave_there = extra_heave;
+  }
+
+  std::optional<Feasibility::Place>
+  Feasibility::place() const
+  {
+    if (piping >= 0. && (lift < 0. || piping <= lift))
+      return Place{piping, "piping"};
+    if (lift >= 0.)
+      return Place{lift, "plug lift"};
+    return {};
+  }
+
+  std::string
+  Feasibility::reason_to_end(const double penetration) const
+  {
+    const auto from = place();
+    if (!from || !settings.distance ||
+        penetration < from->penetration + *settings.distance)
+      return "";
+    return "the installation has not been feasible since " +
+           to_text(from->penetration, 4) + " m (" + from->reason +
+           "), and Installation/End where infeasible is " +
+           to_text(*settings.distance) + " m";
+  }
+
+  void
+  Feasibility::register_totals(RunTotals &totals)
+  {
+    totals.keep("piping_since", piping);
+    totals.keep("plug_lifted_since", lift);
+    totals.keep("plug_rise_measured_at", at);
+    totals.keep("plug_rise_measured", heave_there);
   }
 } // namespace CaissonMPM

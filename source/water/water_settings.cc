@@ -83,6 +83,23 @@ namespace CaissonMPM
       "otherwise nothing flows through it.");
   }
 
+  FeasibilitySettings::FeasibilitySettings()
+    : Section("/Installation", Influence::none)
+  {
+    add_word_or_number(
+      *this,
+      "End where infeasible",
+      distance,
+      "never",
+      {},
+      "m",
+      "The run ends this far behind the penetration at which suction can "
+      "install the caisson no more: the exit gradient is critical (piping), or "
+      "the plug rises, beyond what the wall displaces, by more than half of "
+      "the penetration (plug lift).",
+      Patterns::Double(0.));
+  }
+
   WaterSettings::WaterSettings()
     : Section("/Water", Influence::motion)
     , coupled(sides)

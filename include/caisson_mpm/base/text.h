@@ -6,6 +6,7 @@
 #define caisson_mpm_base_text_h
 
 #include <charconv>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -31,6 +32,10 @@ namespace CaissonMPM
   /** Write a share as a percentage: 0.0123 becomes "1.2 %". */
   std::string
   percent(const double share, const int significant_digits);
+
+  /** Return the number that stands alone in its text, if there is one. */
+  std::optional<double>
+  number_in(const std::string &text);
 
   /** Return whether the character at this place is one that controls a
    * terminal, in ASCII or, of two bytes, in UTF-8. Line feeds and tabs count.

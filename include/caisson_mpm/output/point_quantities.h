@@ -15,6 +15,25 @@
 
 namespace CaissonMPM
 {
+  /** Throws BadInput with @p place where @p name is not among the names,
+   * listing them and the nearest ones. */
+  void
+  check_known(const std::string              &name,
+              const std::vector<std::string> &known,
+              const std::string              &place,
+              const std::string              &kind);
+
+  /** The keys of a map. */
+  template <typename Value>
+  std::vector<std::string>
+  names_of(const std::map<std::string, Value> &entries)
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : entries)
+      names.push_back(entry.first);
+    return names;
+  }
+
   /** How a quantity follows from a material point. */
   class PointQuantity
   {

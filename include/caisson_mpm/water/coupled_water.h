@@ -6,7 +6,7 @@
 
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/water/flowing_water.h>
-#include <caisson_mpm/water/pressure_extremes.h>
+#include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/pressure_projection.h>
 
 #include <string>

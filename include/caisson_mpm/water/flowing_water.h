@@ -4,10 +4,12 @@
 #ifndef caisson_mpm_water_flowing_water_h
 #define caisson_mpm_water_flowing_water_h
 
+#include <caisson_mpm/domain/material_points.h>
+#include <caisson_mpm/materials/soil.h>
+#include <caisson_mpm/water/cell_integrals.h>
 #include <caisson_mpm/water/lid_compartment.h>
-#include <caisson_mpm/water/permeability_field.h>
 #include <caisson_mpm/water/pore_water.h>
-#include <caisson_mpm/water/tip_integral.h>
+#include <caisson_mpm/water/pressure_projection.h>
 
 #include <boost/signals2/connection.hpp>
 
@@ -17,6 +19,29 @@
 
 namespace CaissonMPM
 {
+  /** What the soil in the cells is to water that flows through it: means over
+   * the points of each cell; a gap has the soil of its depth at the
+   * start. Flow along layers adds up, flow across them shares its gradient. */
+  struct PermeabilityField
+  {
+    /** Compute the means, with all permeabilities @p faster than the soil's.
+     * Not collective. */
+    void
+    compute(const BackgroundGrid &grid,
+            const MaterialPoints &points,
+            const Soil           &soil,
+            const double          faster);
+
+    /** Return the permeability of the cells, 0 where water does not flow in a
+     * time that counts. [n_cells], m/s */
+    std::vector<Conductance>
+    of_flow() const;
+
+    std::vector<Conductance>     permeability; // [n_cells], m/s
+    std::vector<unsigned char>   is_clay;    // [n_cells], undrained by strength
+    std::vector<WaterProperties> properties; // [n_cells]
+  };
+
   /** Knows where the soil ends and how permeable it is, and owns the
    * compartment beneath the lid of a caisson. A derived class computes the
    * flow. */

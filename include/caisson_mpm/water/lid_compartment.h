@@ -2,22 +2,70 @@
 //
 // What a caisson adds to water that flows: the suction beneath its lid, which a
 // pump or a pull causes (suction.h, sealed_lid.h), the plug of soil that it
-// loads (plug.h), and from where on this is not feasible (feasibility.h).
+// loads (plug.h), and from where on this is not feasible.
 #ifndef caisson_mpm_water_lid_compartment_h
 #define caisson_mpm_water_lid_compartment_h
 
 #include <caisson_mpm/bodies/rest.h>
-#include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/plug.h>
 #include <caisson_mpm/water/pore_water.h>
 #include <caisson_mpm/water/sealed_lid.h>
 #include <caisson_mpm/water/suction.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace CaissonMPM
 {
+  /**
+   * Notes where piping begins, and where the suction lifts the plug. A plug is
+   * lifted where its surface rises, beyond what the wall displaces, by more
+   * than half of what the caisson goes down: the suction then draws in soil
+   * rather than the caisson. Whether the pump or boiling ends the run is the
+   * matter of Suction. Not collective.
+   */
+  class Feasibility
+  {
+  public:
+    explicit Feasibility(const FeasibilitySettings &settings)
+      : settings(settings)
+    {}
+
+    /** See the state at a record: the heave of the plug beyond what the wall
+     * displaces, the gradient over the critical one, and in which @p window of
+     * penetration a rise is measured. Units: m, m, Pa, none, m. */
+    void
+    update(const double penetration,
+           const double extra_heave,
+           const double suction,
+           const double gradient,
+           const double window);
+
+    /** Where it became infeasible, and why. */
+    struct Place
+    {
+      double      penetration; // m
+      std::string reason;      // in one or two words
+    };
+
+    std::optional<Place>
+    place() const;
+
+    /** Return why a run ends that is at this @p penetration, or an empty text.
+     * Units: m. */
+    std::string
+    reason_to_end(const double penetration) const;
+
+    void
+    register_totals(RunTotals &totals);
+
+  private:
+    const FeasibilitySettings &settings;
+    double piping = -1., lift = -1.;   // penetration where it began; m
+    double at = -1., heave_there = 0.; // where the last rise was measured; m
+  };
+
   /** The flow of the water as the compartment sees it. */
   struct WaterFlow
   {

@@ -16,6 +16,7 @@
 #include <caisson_mpm/operators/nodal_force.h>
 #include <caisson_mpm/water/water_settings.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -285,9 +286,57 @@ namespace CaissonMPM
   /** Return whether a condition holds for the first time, and remember it. */
   bool
   holds_first(bool &has_held, const bool holds);
+
   /** Return the model that Water/Level chooses. */
   std::unique_ptr<PoreWater>
   make_pore_water(const WaterScene &scene);
+
+  /** The smallest and the largest excess pore pressure of a record, and the
+   * margin of the water where it is nearest to boiling: the absolute pressure
+   * over that of vapor, at most that of the water on the mudline at rest. */
+  class PressureExtremes
+  {
+  public:
+    explicit PressureExtremes(const WaterScene &scene);
+
+    /** Begin a record. */
+    void
+    begin();
+
+    /** Include a pressure in the extremes. Units: Pa. */
+    void
+    include(const double pressure);
+
+    /** Include a pressure at a place in the margin. Units: Pa, m. */
+    void
+    include_at(const double pressure, const double r, const double z);
+
+    /** The same in the middle of a cell. */
+    void
+    include_in(const double pressure, const Kernels::CellGeometry &cell);
+
+    /** Take the extremes of all ranks. Collective. */
+    void
+    end();
+
+    NamedNumbers
+    columns() const;
+
+    /** Append a warning when the water would boil for the first time. @p place:
+     * of the body, in words. Units: s. */
+    void
+    warn(const double              time,
+         const std::string        &place,
+         std::vector<std::string> &warnings);
+
+  private:
+    const WaterScene      scene;
+    double                unit_weight = 0.; // of the water, N/m3
+    double                at_rest     = 0.; // margin on the mudline, Pa
+    double                smallest = 0., largest = 0.; // Pa
+    std::array<double, 3> lowest     = {{0., 0., 0.}}; // margin, r, z; Pa, m
+    bool                  has_warned = false;
+  };
 } // namespace CaissonMPM
 
 #endif

@@ -12,10 +12,9 @@
 #ifndef caisson_mpm_water_undrained_water_h
 #define caisson_mpm_water_undrained_water_h
 
+#include <caisson_mpm/water/cell_integrals.h>
 #include <caisson_mpm/water/pore_water.h>
-#include <caisson_mpm/water/pressure_extremes.h>
 #include <caisson_mpm/water/steady_seepage.h>
-#include <caisson_mpm/water/tip_integral.h>
 
 #include <boost/signals2/connection.hpp>
 

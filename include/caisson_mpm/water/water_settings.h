@@ -5,11 +5,11 @@
 #define caisson_mpm_water_water_settings_h
 
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/water/feasibility.h>
 #include <caisson_mpm/water/mudline.h>
 #include <caisson_mpm/water/suction.h>
 
 #include <deque>
+#include <optional>
 #include <string>
 
 namespace CaissonMPM
@@ -21,6 +21,14 @@ namespace CaissonMPM
     undrained,
     seepage,
     coupled
+  };
+
+  /** Where a run ends that has become infeasible. */
+  struct FeasibilitySettings : public Section
+  {
+    FeasibilitySettings();
+
+    std::optional<double> distance; // m
   };
 
   /**
