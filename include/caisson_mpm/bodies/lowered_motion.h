@@ -6,6 +6,11 @@
 
 #include <caisson_mpm/bodies/loaded_motion.h>
 
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace CaissonMPM
 {
   /**
@@ -22,13 +27,31 @@ namespace CaissonMPM
   class LoweredMotion : public LoadedMotion
   {
   public:
-    LoweredMotion();
+    LoweredMotion()
+      : LoadedMotion(
+          "lowered",
+          "weight and suction let the body sink until the soil carries it")
+    {
+      add_parameter("Lowering velocity",
+                    largest_velocity,
+                    "m/s",
+                    "The largest velocity of a body that is lowered.",
+                    dealii::Patterns::Double(1e-9));
+    }
 
     void
-    start() override;
+    start() override
+    {
+      LoadedMotion::start();
+      velocity_ = 0.;
+    }
 
     void
-    register_totals(RunTotals &totals) override;
+    register_totals(RunTotals &totals) override
+    {
+      LoadedMotion::register_totals(totals);
+      totals.carry("lowered_velocity", velocity_);
+    }
 
     double
     usual_velocity() const override
@@ -38,9 +61,29 @@ namespace CaissonMPM
 
   protected:
     void
-    move(const double dt, const double force) override;
+    move(const double dt, const double force) override
+    {
+      const double load = surroundings.load;
+      resistance.add(dt, delay, -force);
+      const double excess = load - resistance.value(),
+                   scale  = std::max(share_of_load * std::abs(load), 1.),
+                   wanted = largest_velocity *
+                            std::clamp(excess / scale, slowest_rise, 1.),
+                   change = largest_velocity * dt / ramp;
+      velocity_ += std::clamp(wanted - velocity_, -change, change);
+      travel_ += dt * velocity_;
+      rest.look(dt,
+                {load, resistance.value(), velocity_, travel_},
+                share_at_rest * largest_velocity);
+    }
 
   private:
+    static constexpr double share_of_load = .1; // excess at which v = v0
+    static constexpr double slowest_rise  = -.2;
+    static constexpr double delay         = .02; // s, over which R is averaged
+    static constexpr double ramp          = .5;  // s, from 0 to v0
+    static constexpr double share_at_rest = .02; // of v0
+
     double largest_velocity = 0.1;
   };
 } // namespace CaissonMPM
