@@ -178,12 +178,6 @@ namespace CaissonMPM
     parse_region();
   }
 
-  std::string
-  GridLines::meters(const double x)
-  {
-    return to_text(x) + " m";
-  }
-
   double
   GridLines::height_at(const double z0, const double travel) const
   {

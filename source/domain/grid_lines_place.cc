@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace CaissonMPM
 {
@@ -344,18 +345,6 @@ namespace CaissonMPM
 
   // ------------------------------------------------------------ number
 
-  namespace
-  {
-    double
-    sum(const std::vector<double> &numbers)
-    {
-      double result = 0.;
-      for (const double n : numbers)
-        result += n;
-      return result;
-    }
-  } // namespace
-
   std::vector<double>
   GridLines::cells_between(std::vector<FixedLine>              &fixed,
                            const std::function<double(double)> &size)
@@ -376,7 +365,10 @@ namespace CaissonMPM
   GridLines::check_number_of_cells(const Spacing &in_r,
                                    const Spacing &in_z) const
   {
-    auto         fixed_in_r = in_r.fixed, fixed_in_z = in_z.fixed;
+    auto       fixed_in_r = in_r.fixed, fixed_in_z = in_z.fixed;
+    const auto sum = [](const std::vector<double> &numbers) {
+      return std::accumulate(numbers.begin(), numbers.end(), 0.);
+    };
     const double n_columns = sum(cells_between(fixed_in_r, in_r.size)),
                  n_rows    = sum(cells_between(fixed_in_z, in_z.size)),
                  n         = n_columns * n_rows;

@@ -33,27 +33,19 @@ namespace CaissonMPM
       }
     if (travel_to_hold > 0.)
       check_travel_down();
-    if (uplift_to_hold > 0.)
-      check_travel_up();
+    if (uplift_to_hold > 0. && zone_bottom <= bottom)
+      throw BadInput("The body moves up by " + meters(uplift_to_hold) +
+                     ", and no rows can stretch below Grid/Moving zone below "
+                     "tip = " +
+                     meters(zone_below_tip) +
+                     ". Reduce that, or lower Grid/Bottom.");
   }
 
   double
-  GridLines::height_of_row(const unsigned int row, const double travel) const
+  GridLines::height_of_row(const unsigned int row) const
   {
-    return height_at(rows[row + tree_.root_size()], travel) -
-           height_at(rows[row], travel);
-  }
-
-  unsigned int
-  GridLines::flattest_row_at(const double travel) const
-  {
-    unsigned int flattest = n_rows();
-    for (unsigned int j = 0; j < n_rows(); j += tree_.root_size())
-      if (rows[j] < zone_bottom - 1e-9 &&
-          (flattest == n_rows() ||
-           height_of_row(j, travel) < height_of_row(flattest, travel)))
-        flattest = j;
-    return flattest;
+    return height_at(rows[row + tree_.root_size()], travel_to_hold) -
+           height_at(rows[row], travel_to_hold);
   }
 
   std::string
@@ -74,17 +66,6 @@ namespace CaissonMPM
                 " (z = " + meters(z) + ")";
       }
     return text;
-  }
-
-  void
-  GridLines::check_travel_up() const
-  {
-    if (zone_bottom <= bottom)
-      throw BadInput("The body moves up by " + meters(uplift_to_hold) +
-                     ", and no rows can stretch below Grid/Moving zone below "
-                     "tip = " +
-                     meters(zone_below_tip) +
-                     ". Reduce that, or lower Grid/Bottom.");
   }
 
   void
@@ -119,10 +100,14 @@ namespace CaissonMPM
                      meters(travel_to_hold) + ". Lower Grid/Bottom below " +
                      meters(zone_bottom - travel_to_hold) +
                      ", reduce Grid/Moving zone below tip, or push less far.");
-    const unsigned int row = flattest_row_at(travel_to_hold);
-    if (row < n_rows() &&
-        height_of_row(row, travel_to_hold) < smallest_row_height())
-      refuse_flat_row(row);
+    // the flattest row below the moving zone
+    unsigned int flattest = 0;
+    for (unsigned int j = 0; j < n_rows(); j += tree_.root_size())
+      if (rows[j] < zone_bottom - 1e-9 &&
+          height_of_row(j) < height_of_row(flattest))
+        flattest = j;
+    if (height_of_row(flattest) < smallest_row_height())
+      refuse_flat_row(flattest);
     if (height_at(top, travel_to_hold) <= 0.)
       throw BadInput("After a travel of " + meters(travel_to_hold) +
                      " the top of the mesh lies at z = " +
@@ -134,7 +119,7 @@ namespace CaissonMPM
   void
   GridLines::refuse_flat_row(const unsigned int row) const
   {
-    const double smallest       = height_of_row(row, travel_to_hold),
+    const double smallest       = height_of_row(row),
                  available      = zone_bottom - bottom;
     const std::string neighbors = neighbors_of_row(row);
     if (!neighbors.empty())

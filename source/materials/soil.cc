@@ -317,7 +317,7 @@ namespace CaissonMPM
   Soil::name_unused_permeability(ParameterOrigins  &origins,
                                  const std::string &why) const
   {
-    for (unsigned int i = 1; i <= n_layers(); ++i)
+    for (unsigned int i = 1; i <= n_layers_; ++i)
       {
         const std::string layer = "Soil/Layer " + to_text(i) + "/Permeability";
         origins.add_unused({layer, layer + " ratio", layer + " by void ratio"},

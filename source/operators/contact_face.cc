@@ -33,7 +33,8 @@ namespace CaissonMPM
       const Vector2 along  = x[1] - x[0];
       const double  length = along.norm();
       face.surface         = surfaces[f];
-      if (face.surface == tip && !grid.is_lowest(cell))
+      if (face.surface == tip &&
+          !grid.lines().is_lowest_cell(grid.global_number(cell)))
         face.surface = grid.is_lid(cell) ? lid : ring;
       face.normal[0] = along[1] / length;
       face.normal[1] = -along[0] / length;

@@ -221,12 +221,6 @@ namespace CaissonMPM
     {
       return lines_.is_lid_cell(global_numbers[cell]);
     }
-    /** Return whether a cell is one of the lowest of the body. */
-    bool
-    is_lowest(const unsigned int cell) const
-    {
-      return lines_.is_lowest_cell(global_numbers[cell]);
-    }
     Zone
     zone(const unsigned int cell) const
     {

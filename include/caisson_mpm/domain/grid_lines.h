@@ -24,6 +24,7 @@
 #include <caisson_mpm/base/expression.h>
 #include <caisson_mpm/base/parameter_origins.h>
 #include <caisson_mpm/base/section.h>
+#include <caisson_mpm/base/text.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/cell_tree.h>
 #include <caisson_mpm/kernels/layout.h>
@@ -404,22 +405,20 @@ namespace CaissonMPM
     free_node_rate(const LatticeNode &node) const;
     /** Return a length with its unit, for messages. */
     static std::string
-    meters(const double x);
+    meters(const double x)
+    {
+      return to_text(x) + " m";
+    }
 
     void
     check_travel() const;
     void
     check_travel_down() const;
     void
-    check_travel_up() const;
-    void
     check_expansion() const;
-    /** Return the lower line of the flattest row below the moving zone;
-     * n_rows() if there is none. */
-    unsigned int
-    flattest_row_at(const double travel) const;
+    /** The height of a row at the end of the travel. Units: m. */
     double
-    height_of_row(const unsigned int row, const double travel) const;
+    height_of_row(const unsigned int row) const;
     /** Return the lines that keep a row apart from others, if it lies between
      * two fixed lines, or else nothing. */
     std::string

@@ -116,12 +116,6 @@ namespace CaissonMPM
     stress_borne_above(const double z, const double height) const;
 
     unsigned int
-    n_layers() const
-    {
-      return n_layers_;
-    }
-
-    unsigned int
     n_materials() const
     {
       return materials.size();
