@@ -215,7 +215,49 @@ namespace CaissonMPM::Kernels
           1.}}};
 
       static bool
-      check(const Parameters &, const LawContext &, LawMessage &);
+      check(const Parameters &p, const LawContext &context, LawMessage &message)
+      {
+        const double e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
+        if (p.turned > p.reversed)
+          return message.refuse("Stiffness factor of turns = %g exceeds "
+                                "Stiffness factor of reversals = %g. Lower it.",
+                                p.turned,
+                                p.reversed);
+        if (!(e_d < e_c && e_c < e_i))
+          return message.refuse(
+            "Densest void ratio = %g, Critical void ratio = %g and Loosest "
+            "void ratio = %g must grow in this order. Correct them.",
+            e_d,
+            e_c,
+            e_i);
+        if (context.void_ratio < e_d || context.void_ratio > e_i)
+          return message.refuse(
+            "Porosity = %g, a void ratio of %g, lies outside Densest void "
+            "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
+            "Change one of them.",
+            context.void_ratio / (1. + context.void_ratio),
+            context.void_ratio,
+            e_d,
+            e_i,
+            e_d / (1. + e_d),
+            e_i / (1. + e_i));
+        const double loosest =
+          loosest_void_ratio(Lanes<1>(context.mean_stress + p.shift), p)[0];
+        if (context.void_ratio > loosest)
+          return message.refuse(
+            "Porosity = %g, a void ratio of %g, is looser "
+            "than the loosest state, %g, at the mean stress "
+            "%g Pa. Lower it, or check Granulate hardness.",
+            context.void_ratio / (1. + context.void_ratio),
+            context.void_ratio,
+            loosest,
+            context.mean_stress);
+        if (!(denominator(p) > 0.))
+          return message.refuse("Density exponent of strength = %g leaves the "
+                                "loosest sand without stiffness. Lower it.",
+                                p.alpha);
+        return true;
+      }
 
       /** Up to the limit stress of its density, where the stress no longer
        * changes: f_d |L^-1 : N| = 1. */
@@ -313,7 +355,19 @@ namespace CaissonMPM::Kernels
       [[gnu::always_inline]] static inline Number
       p_wave_modulus(const StressState<Number> &stress,
                      const Number               void_ratio,
-                     const Parameters          &parameters);
+                     const Parameters          &p)
+      {
+        StressState<Number> T = shifted(stress, -p.shift);
+        hold_in_bounds(T, p);
+        const Factors<Number> f    = factors(T, void_ratio, p);
+        const Number          half = .5 * (f.s.rr - f.s.zz);
+        const Number          s =
+          max(.5 * (f.s.rr + f.s.zz) + sqrt(half * half + f.s.rz * f.s.rz),
+              f.s.tt);
+        const Number linear =
+          p.reversed * (f.F * f.F + p.a * p.a * product(f.s, f.s));
+        return f.scale * (linear + f.f_d * p.a * f.F * (2. * s - 1. / 3.));
+      }
 
       /** What the rate takes from stress and void ratio. */
       template <typename Number>
@@ -355,12 +409,73 @@ namespace CaissonMPM::Kernels
       [[gnu::always_inline]] static inline Factors<Number>
       factors(const StressState<Number> &T,
               const Number               void_ratio,
-              const Parameters          &parameters);
+              const Parameters          &p)
+      {
+        const Number    third(1. / 3.);
+        const Number    trace = T.rr + T.zz + T.tt;
+        Factors<Number> f;
+        f.s = scaled(Number(1.) / trace, T);
+
+        // F with cos 3theta = -3 sqrt(6) det(S*) / |S*|^3 put in
+        const Number x = f.s.rr - third, y = f.s.zz - third, z = f.s.tt - third,
+                     w      = f.s.rz;
+        const Number square = max(x * x + y * y + z * z + 2. * (w * w), //
+                                  Number(1e-30)),
+                     det    = z * (x * y - w * w);
+        // one division for both quotients
+        const Number tr_SS = third + square, divisor = 2. * square - 18. * det,
+                     inverse = Number(1.) / (tr_SS * divisor);
+        const Number radicand =
+          .375 * square + (2. - 3. * square) * square * tr_SS * inverse;
+        f.F = sqrt(max(radicand, Number(0.))) - sqrt(.375 * square);
+
+        // pressure: e_i0 / e_i = exp((3p/h_s)^n), and e at zero pressure
+        const Number log_pressure = log2(-trace * (1. / p.hardness));
+        const Number growth =
+          exp2(1.4426950408889634 * exp2(p.n * log_pressure));
+        const Number e =
+          max(min(void_ratio * growth, Number(p.e_i0)), Number(.5 * p.e_d0));
+        // density
+        const Number excess = (e - p.e_d0) * (1. / (p.e_c0 - p.e_d0));
+        f.f_d               = select(excess > Number(0.),
+                       pow(max(excess, Number(1e-30)), p.alpha),
+                       Number(0.));
+        f.scale             = p.stiffness * (1. + growth * (1. / p.e_i0)) *
+                  exp2((1. - p.n) * log_pressure - p.beta * log2(e)) *
+                  (divisor * inverse);
+        return f;
+      }
 
       /** Bring a shifted stress into the bounds of the file's head. */
       template <typename Number>
       [[gnu::always_inline]] static inline void
-      hold_in_bounds(StressState<Number> &T, const Parameters &parameters);
+      hold_in_bounds(StressState<Number> &T, const Parameters &parameters)
+      {
+        const Number mean   = (1. / 3.) * (T.rr + T.zz + T.tt);
+        const Number center = .5 * (T.rr + T.zz), half = .5 * (T.rr - T.zz);
+        const Number square = half * half + T.rz * T.rz;
+        const auto   parted = !(mean < Number(-parameters.shift));
+        // what most stresses are: no principal value above the bound
+        const Number bound = (3. / 50.) * mean, room = bound - center;
+        if (!any(parted | (T.tt > bound) |
+                 (square >= room * max(room, Number(0.)))))
+          return;
+        // how far the least compressive value stands above the mean
+        const Number excess  = max(center + sqrt(square), T.tt) - mean;
+        const Number allowed = bound - mean;
+        const Number share   = select(excess > allowed,
+                                    allowed / max(excess, Number(1e-30)),
+                                    Number(1.));
+        const auto   held    = [&](const Number component) {
+          return select(parted,
+                        Number(-parameters.shift),
+                        mean + share * (component - mean));
+        };
+        T.rr = held(T.rr);
+        T.zz = held(T.zz);
+        T.tt = held(T.tt);
+        T.rz = select(parted, Number(0.), share * T.rz);
+      }
 
       /** Reduce a shifted stress in bounds to what soil of a void ratio can
        * bear. */
@@ -412,140 +527,6 @@ namespace CaissonMPM::Kernels
       }
     };
 
-    inline bool
-    Hypoplasticity::check(const Parameters &p,
-                          const LawContext &context,
-                          LawMessage       &message)
-    {
-      const double e_d = p.e_d0, e_c = p.e_c0, e_i = p.e_i0;
-      if (p.turned > p.reversed)
-        return message.refuse("Stiffness factor of turns = %g exceeds "
-                              "Stiffness factor of reversals = %g. Lower it.",
-                              p.turned,
-                              p.reversed);
-      if (!(e_d < e_c && e_c < e_i))
-        return message.refuse(
-          "Densest void ratio = %g, Critical void ratio = %g and Loosest "
-          "void ratio = %g must grow in this order. Correct them.",
-          e_d,
-          e_c,
-          e_i);
-      if (context.void_ratio < e_d || context.void_ratio > e_i)
-        return message.refuse(
-          "Porosity = %g, a void ratio of %g, lies outside Densest void "
-          "ratio = %g to Loosest void ratio = %g (porosities %g to %g). "
-          "Change one of them.",
-          context.void_ratio / (1. + context.void_ratio),
-          context.void_ratio,
-          e_d,
-          e_i,
-          e_d / (1. + e_d),
-          e_i / (1. + e_i));
-      const double loosest =
-        loosest_void_ratio(Lanes<1>(context.mean_stress + p.shift), p)[0];
-      if (context.void_ratio > loosest)
-        return message.refuse("Porosity = %g, a void ratio of %g, is looser "
-                              "than the loosest state, %g, at the mean stress "
-                              "%g Pa. Lower it, or check Granulate hardness.",
-                              context.void_ratio / (1. + context.void_ratio),
-                              context.void_ratio,
-                              loosest,
-                              context.mean_stress);
-      if (!(denominator(p) > 0.))
-        return message.refuse("Density exponent of strength = %g leaves the "
-                              "loosest sand without stiffness. Lower it.",
-                              p.alpha);
-      return true;
-    }
-
-    template <typename Number>
-    [[gnu::always_inline]] inline Hypoplasticity::Factors<Number>
-    Hypoplasticity::factors(const StressState<Number> &T,
-                            const Number               void_ratio,
-                            const Parameters          &p)
-    {
-      const Number    third(1. / 3.);
-      const Number    trace = T.rr + T.zz + T.tt;
-      Factors<Number> f;
-      f.s = scaled(Number(1.) / trace, T);
-
-      // F with cos 3theta = -3 sqrt(6) det(S*) / |S*|^3 put in
-      const Number x = f.s.rr - third, y = f.s.zz - third, z = f.s.tt - third,
-                   w      = f.s.rz;
-      const Number square = max(x * x + y * y + z * z + 2. * (w * w), //
-                                Number(1e-30)),
-                   det    = z * (x * y - w * w);
-      // one division for both quotients
-      const Number tr_SS = third + square, divisor = 2. * square - 18. * det,
-                   inverse = Number(1.) / (tr_SS * divisor);
-      const Number radicand =
-        .375 * square + (2. - 3. * square) * square * tr_SS * inverse;
-      f.F = sqrt(max(radicand, Number(0.))) - sqrt(.375 * square);
-
-      // pressure: e_i0 / e_i = exp((3p/h_s)^n), and e at zero pressure
-      const Number log_pressure = log2(-trace * (1. / p.hardness));
-      const Number growth = exp2(1.4426950408889634 * exp2(p.n * log_pressure));
-      const Number e =
-        max(min(void_ratio * growth, Number(p.e_i0)), Number(.5 * p.e_d0));
-      // density
-      const Number excess = (e - p.e_d0) * (1. / (p.e_c0 - p.e_d0));
-      f.f_d               = select(excess > Number(0.),
-                     pow(max(excess, Number(1e-30)), p.alpha),
-                     Number(0.));
-      f.scale             = p.stiffness * (1. + growth * (1. / p.e_i0)) *
-                exp2((1. - p.n) * log_pressure - p.beta * log2(e)) *
-                (divisor * inverse);
-      return f;
-    }
-
-    template <typename Number>
-    [[gnu::always_inline]] inline void
-    Hypoplasticity::hold_in_bounds(StressState<Number> &T,
-                                   const Parameters    &parameters)
-    {
-      const Number mean   = (1. / 3.) * (T.rr + T.zz + T.tt);
-      const Number center = .5 * (T.rr + T.zz), half = .5 * (T.rr - T.zz);
-      const Number square = half * half + T.rz * T.rz;
-      const auto   parted = !(mean < Number(-parameters.shift));
-      // what most stresses are: no principal value above the bound
-      const Number bound = (3. / 50.) * mean, room = bound - center;
-      if (!any(parted | (T.tt > bound) |
-               (square >= room * max(room, Number(0.)))))
-        return;
-      // how far the least compressive value stands above the mean
-      const Number excess  = max(center + sqrt(square), T.tt) - mean;
-      const Number allowed = bound - mean;
-      const Number share   = select(excess > allowed,
-                                  allowed / max(excess, Number(1e-30)),
-                                  Number(1.));
-      const auto   held    = [&](const Number component) {
-        return select(parted,
-                      Number(-parameters.shift),
-                      mean + share * (component - mean));
-      };
-      T.rr = held(T.rr);
-      T.zz = held(T.zz);
-      T.tt = held(T.tt);
-      T.rz = select(parted, Number(0.), share * T.rz);
-    }
-
-    template <typename Number>
-    [[gnu::always_inline]] inline Number
-    Hypoplasticity::p_wave_modulus(const StressState<Number> &stress,
-                                   const Number               void_ratio,
-                                   const Parameters          &p)
-    {
-      StressState<Number> T = shifted(stress, -p.shift);
-      hold_in_bounds(T, p);
-      const Factors<Number> f    = factors(T, void_ratio, p);
-      const Number          half = .5 * (f.s.rr - f.s.zz);
-      const Number          s =
-        max(.5 * (f.s.rr + f.s.zz) + sqrt(half * half + f.s.rz * f.s.rz),
-            f.s.tt);
-      const Number linear =
-        p.reversed * (f.F * f.F + p.a * p.a * product(f.s, f.s));
-      return f.scale * (linear + f.f_d * p.a * f.F * (2. * s - 1. / 3.));
-    }
   } // namespace CAISSON_KERNEL_ISA
 } // namespace CaissonMPM::Kernels
 

@@ -95,7 +95,68 @@ namespace CaissonMPM::Kernels
            const Real        cos_phi,
            const Real        sin_psi,
            const Real        cohesion,
-           const double      tension);
+           const double      tension)
+      {
+        MohrCoulombStrength p;
+        p.sin_phi  = sin_phi;
+        p.cos_phi  = cos_phi;
+        p.sin_psi  = sin_psi;
+        p.cohesion = cohesion;
+
+        const Real s = sin_phi, c = cohesion * cos_phi;
+        // c cot phi without a division by sin phi = 0
+        const Real apex   = apex_of(c, s);
+        p.tension_cutoff  = smaller(Real(tension), apex);
+        const Real t      = ((1. + s) * p.tension_cutoff - 2. * c) / (1. - s);
+        p.minor_at_cutoff = smaller(t, p.tension_cutoff);
+
+        const Real trace = 2. * sin_psi;
+        p.flow_major =
+          elastic.lambda * trace + 2. * elastic.mu * (1. + sin_psi);
+        p.flow_middle = elastic.lambda * trace;
+        p.flow_minor =
+          elastic.lambda * trace - 2. * elastic.mu * (1. - sin_psi);
+        p.flow_major_edge = 0.5 * (p.flow_major + p.flow_middle);
+        p.flow_minor_edge = 0.5 * (p.flow_middle + p.flow_minor);
+
+        const auto inverse = [s](const Real major, const Real minor) {
+          return 1. / ((1. + s) * major - (1. - s) * minor);
+        };
+        p.inverse_plane      = inverse(p.flow_major, p.flow_minor);
+        p.inverse_major_edge = inverse(p.flow_major_edge, p.flow_minor);
+        p.inverse_minor_edge = inverse(p.flow_major, p.flow_minor_edge);
+        return p;
+      }
+
+    private:
+      [[gnu::always_inline]] static inline double
+      smaller(const double a, const double b)
+      {
+        return a < b ? a : b;
+      }
+
+      template <int n>
+      [[gnu::always_inline]] static inline Lanes<n>
+      smaller(const Lanes<n> a, const Lanes<n> b)
+      {
+        return min(a, b);
+      }
+
+      /** min(c / s, no_cutoff) without a division by s = 0. */
+      [[gnu::always_inline]] static inline double
+      apex_of(const double c, const double s)
+      {
+        return c < no_cutoff * s ? c / s : no_cutoff;
+      }
+
+      template <int n>
+      [[gnu::always_inline]] static inline Lanes<n>
+      apex_of(const Lanes<n> c, const Lanes<n> s)
+      {
+        const Lanes<n> none(no_cutoff);
+        const auto     exists = c < none * s;
+        return select(exists, c / select(exists, s, Lanes<n>(1.)), none);
+      }
     };
 
     /**
@@ -119,7 +180,27 @@ namespace CaissonMPM::Kernels
              const StrainIncrement<Number> &de,
              LawState<Number>              &state,
              const Elasticity              &elastic,
-             const Strength                &strength);
+             const Strength                &strength)
+      {
+        add_elastic_increment(sigma, de, elastic.lambda, elastic.mu);
+        if (is_surely_elastic(sigma, strength))
+          return;
+
+        const PrincipalFrame<Number> frame(sigma);
+        const Stress                 trial = frame.principal_stresses();
+        const Number yield = yield_function(trial.major, trial.minor, strength);
+        const Number cutoff(strength.tension_cutoff);
+        if (!any((yield > Number(0.)) | (trial.major > cutoff)))
+          return;
+
+        Stress     s    = to_cone(trial, yield, strength);
+        const Mask torn = s.major > cutoff;
+        if (any(torn))
+          s = select(torn, to_cutoff(trial, elastic, strength), s);
+
+        accumulate(state, trial, s, elastic);
+        sigma = frame.with_principal_stresses(s);
+      }
 
       /**
        * Whether no lane yields, even with a bound for the radius of Mohr's
@@ -142,7 +223,33 @@ namespace CaissonMPM::Kernels
       [[gnu::always_inline]] static inline Stress
       to_cutoff(const Stress     &trial,
                 const Elasticity &elastic,
-                const Strength   &strength);
+                const Strength   &p)
+      {
+        const Number T(p.tension_cutoff), t(p.minor_at_cutoff);
+        const Number excess_major  = trial.major - T;
+        const Number excess_middle = trial.middle - T;
+
+        // on s1 = T alone, or on s1 = s2 = T
+        const Number plane_middle =
+          trial.middle - elastic.oedometric * excess_major;
+        const Mask   edge = plane_middle > T;
+        const Number fall =
+          select(edge,
+                 elastic.poisson_ratio * (excess_major + excess_middle),
+                 elastic.oedometric * excess_major);
+        const Number minor = min(trial.minor - fall, T);
+
+        // on s1 = T and the cone
+        const Number line_middle =
+          trial.middle -
+          elastic.poisson_ratio * (excess_major + (trial.minor - t));
+        const Mask on_cone = minor < t;
+        return {T,
+                select(on_cone,
+                       max(min(line_middle, T), t),
+                       min(plane_middle, T)),
+                max(minor, t)};
+      }
 
     private:
       /** f of the major and the minor stress. Units: Pa. */
@@ -155,202 +262,62 @@ namespace CaissonMPM::Kernels
 
       /** Step 1 of the file's head. Admissible stresses do not change. */
       [[gnu::always_inline]] static inline Stress
-      to_cone(const Stress &trial, const Number yield, const Strength &);
+      to_cone(const Stress &trial, const Number yield, const Strength &p)
+      {
+        const Number on_plane = max(yield, Number(0.)) * p.inverse_plane;
+        const Number major    = trial.major - on_plane * p.flow_major;
+        const Number middle   = trial.middle - on_plane * p.flow_middle;
+        const Number minor    = trial.minor - on_plane * p.flow_minor;
+
+        // s1 = s2: triaxial compression; s2 = s3: triaxial extension
+        const Mask major_edge = middle > major;
+        const Mask minor_edge = (!major_edge) & (minor > middle);
+
+        const Number trial_major =
+          select(major_edge, 0.5 * (trial.major + trial.middle), trial.major);
+        const Number trial_minor =
+          select(minor_edge, 0.5 * (trial.middle + trial.minor), trial.minor);
+        const Number on_edge =
+          max(yield_function(trial_major, trial_minor, p), Number(0.)) *
+          select(major_edge,
+                 Number(p.inverse_major_edge),
+                 Number(p.inverse_minor_edge));
+        const Number edge_major =
+          trial_major - on_edge * select(major_edge,
+                                         Number(p.flow_major_edge),
+                                         Number(p.flow_major));
+        const Number edge_minor =
+          trial_minor - on_edge * select(minor_edge,
+                                         Number(p.flow_minor_edge),
+                                         Number(p.flow_minor));
+        return select(major_edge | minor_edge,
+                      Stress{edge_major,
+                             select(major_edge, edge_major, edge_minor),
+                             edge_minor},
+                      Stress{major, middle, minor});
+      }
 
       /** Add the plastic strain that took @p trial to @p final_stress. */
       [[gnu::always_inline]] static inline void
       accumulate(LawState<Number> &state,
                  const Stress     &trial,
                  const Stress     &final_stress,
-                 const Elasticity &elastic);
+                 const Elasticity &elastic)
+      {
+        const Number major  = trial.major - final_stress.major;
+        const Number middle = trial.middle - final_stress.middle;
+        const Number minor  = trial.minor - final_stress.minor;
+        const Number mean   = (1. / 3.) * (major + middle + minor);
+        const Number square = (major - mean) * (major - mean) +
+                              (middle - mean) * (middle - mean) +
+                              (minor - mean) * (minor - mean);
+        // sqrt(2/3 e:e) with e = deviator of the fall in stress / (2 mu)
+        state.plastic_deviatoric +=
+          (0.5 / elastic.mu) * sqrt((2. / 3.) * square);
+        state.plastic_volumetric += (1. / elastic.bulk) * mean;
+      }
     };
 
-    [[gnu::always_inline]] inline double
-    smaller(const double a, const double b)
-    {
-      return a < b ? a : b;
-    }
-
-    template <int n>
-    [[gnu::always_inline]] inline Lanes<n>
-    smaller(const Lanes<n> a, const Lanes<n> b)
-    {
-      return min(a, b);
-    }
-
-    /** min(c / s, no_cutoff) without a division by s = 0. */
-    [[gnu::always_inline]] inline double
-    apex_of(const double c, const double s)
-    {
-      constexpr double no_cutoff = MohrCoulombStrength<double>::no_cutoff;
-      return c < no_cutoff * s ? c / s : no_cutoff;
-    }
-
-    template <int n>
-    [[gnu::always_inline]] inline Lanes<n>
-    apex_of(const Lanes<n> c, const Lanes<n> s)
-    {
-      const Lanes<n> no_cutoff(MohrCoulombStrength<double>::no_cutoff);
-      const auto     exists = c < no_cutoff * s;
-      return select(exists, c / select(exists, s, Lanes<n>(1.)), no_cutoff);
-    }
-
-    template <typename Real>
-    [[gnu::always_inline]] inline MohrCoulombStrength<Real>
-    MohrCoulombStrength<Real>::make(const Elasticity &elastic,
-                                    const Real        sin_phi,
-                                    const Real        cos_phi,
-                                    const Real        sin_psi,
-                                    const Real        cohesion,
-                                    const double      tension)
-    {
-      MohrCoulombStrength p;
-      p.sin_phi  = sin_phi;
-      p.cos_phi  = cos_phi;
-      p.sin_psi  = sin_psi;
-      p.cohesion = cohesion;
-
-      const Real s = sin_phi, c = cohesion * cos_phi;
-      // c cot phi without a division by sin phi = 0
-      const Real apex   = apex_of(c, s);
-      p.tension_cutoff  = smaller(Real(tension), apex);
-      const Real t      = ((1. + s) * p.tension_cutoff - 2. * c) / (1. - s);
-      p.minor_at_cutoff = smaller(t, p.tension_cutoff);
-
-      const Real trace = 2. * sin_psi;
-      p.flow_major  = elastic.lambda * trace + 2. * elastic.mu * (1. + sin_psi);
-      p.flow_middle = elastic.lambda * trace;
-      p.flow_minor  = elastic.lambda * trace - 2. * elastic.mu * (1. - sin_psi);
-      p.flow_major_edge = 0.5 * (p.flow_major + p.flow_middle);
-      p.flow_minor_edge = 0.5 * (p.flow_middle + p.flow_minor);
-
-      const auto inverse = [s](const Real major, const Real minor) {
-        return 1. / ((1. + s) * major - (1. - s) * minor);
-      };
-      p.inverse_plane      = inverse(p.flow_major, p.flow_minor);
-      p.inverse_major_edge = inverse(p.flow_major_edge, p.flow_minor);
-      p.inverse_minor_edge = inverse(p.flow_major, p.flow_minor_edge);
-      return p;
-    }
-
-    template <typename Number, typename Strength>
-    [[gnu::always_inline]] inline void
-    MohrCoulombReturn<Number, Strength>::update(
-      StressState<Number>           &sigma,
-      const StrainIncrement<Number> &de,
-      LawState<Number>              &state,
-      const Elasticity              &elastic,
-      const Strength                &strength)
-    {
-      add_elastic_increment(sigma, de, elastic.lambda, elastic.mu);
-      if (is_surely_elastic(sigma, strength))
-        return;
-
-      const PrincipalFrame<Number> frame(sigma);
-      const Stress                 trial = frame.principal_stresses();
-      const Number yield = yield_function(trial.major, trial.minor, strength);
-      const Number cutoff(strength.tension_cutoff);
-      if (!any((yield > Number(0.)) | (trial.major > cutoff)))
-        return;
-
-      Stress     s    = to_cone(trial, yield, strength);
-      const Mask torn = s.major > cutoff;
-      if (any(torn))
-        s = select(torn, to_cutoff(trial, elastic, strength), s);
-
-      accumulate(state, trial, s, elastic);
-      sigma = frame.with_principal_stresses(s);
-    }
-
-    template <typename Number, typename Strength>
-    [[gnu::always_inline]] inline PrincipalStresses<Number>
-    MohrCoulombReturn<Number, Strength>::to_cone(const Stress   &trial,
-                                                 const Number    yield,
-                                                 const Strength &p)
-    {
-      const Number on_plane = max(yield, Number(0.)) * p.inverse_plane;
-      const Number major    = trial.major - on_plane * p.flow_major;
-      const Number middle   = trial.middle - on_plane * p.flow_middle;
-      const Number minor    = trial.minor - on_plane * p.flow_minor;
-
-      // s1 = s2: triaxial compression; s2 = s3: triaxial extension
-      const Mask major_edge = middle > major;
-      const Mask minor_edge = (!major_edge) & (minor > middle);
-
-      const Number trial_major =
-        select(major_edge, 0.5 * (trial.major + trial.middle), trial.major);
-      const Number trial_minor =
-        select(minor_edge, 0.5 * (trial.middle + trial.minor), trial.minor);
-      const Number on_edge =
-        max(yield_function(trial_major, trial_minor, p), Number(0.)) *
-        select(major_edge,
-               Number(p.inverse_major_edge),
-               Number(p.inverse_minor_edge));
-      const Number edge_major =
-        trial_major - on_edge * select(major_edge,
-                                       Number(p.flow_major_edge),
-                                       Number(p.flow_major));
-      const Number edge_minor =
-        trial_minor - on_edge * select(minor_edge,
-                                       Number(p.flow_minor_edge),
-                                       Number(p.flow_minor));
-      return select(major_edge | minor_edge,
-                    Stress{edge_major,
-                           select(major_edge, edge_major, edge_minor),
-                           edge_minor},
-                    Stress{major, middle, minor});
-    }
-
-    template <typename Number, typename Strength>
-    [[gnu::always_inline]] inline PrincipalStresses<Number>
-    MohrCoulombReturn<Number, Strength>::to_cutoff(const Stress     &trial,
-                                                   const Elasticity &elastic,
-                                                   const Strength   &p)
-    {
-      const Number T(p.tension_cutoff), t(p.minor_at_cutoff);
-      const Number excess_major  = trial.major - T;
-      const Number excess_middle = trial.middle - T;
-
-      // on s1 = T alone, or on s1 = s2 = T
-      const Number plane_middle =
-        trial.middle - elastic.oedometric * excess_major;
-      const Mask   edge = plane_middle > T;
-      const Number fall =
-        select(edge,
-               elastic.poisson_ratio * (excess_major + excess_middle),
-               elastic.oedometric * excess_major);
-      const Number minor = min(trial.minor - fall, T);
-
-      // on s1 = T and the cone
-      const Number line_middle =
-        trial.middle -
-        elastic.poisson_ratio * (excess_major + (trial.minor - t));
-      const Mask on_cone = minor < t;
-      return {T,
-              select(on_cone,
-                     max(min(line_middle, T), t),
-                     min(plane_middle, T)),
-              max(minor, t)};
-    }
-
-    template <typename Number, typename Strength>
-    [[gnu::always_inline]] inline void
-    MohrCoulombReturn<Number, Strength>::accumulate(LawState<Number> &state,
-                                                    const Stress     &trial,
-                                                    const Stress &final_stress,
-                                                    const Elasticity &elastic)
-    {
-      const Number major  = trial.major - final_stress.major;
-      const Number middle = trial.middle - final_stress.middle;
-      const Number minor  = trial.minor - final_stress.minor;
-      const Number mean   = (1. / 3.) * (major + middle + minor);
-      const Number square = (major - mean) * (major - mean) +
-                            (middle - mean) * (middle - mean) +
-                            (minor - mean) * (minor - mean);
-      // sqrt(2/3 e:e) with e = deviator of the fall in stress / (2 mu)
-      state.plastic_deviatoric += (0.5 / elastic.mu) * sqrt((2. / 3.) * square);
-      state.plastic_volumetric += (1. / elastic.bulk) * mean;
-    }
   } // namespace CAISSON_KERNEL_ISA
 } // namespace CaissonMPM::Kernels
 
