@@ -33,8 +33,15 @@ namespace
   {
   public:
     /** Collective; an object lives as long as MPI is used. */
-    explicit FailureReport(const MPI_Comm communicator);
-    ~FailureReport();
+    explicit FailureReport(const MPI_Comm communicator)
+    {
+      MPI_Comm_dup(communicator, &this->communicator);
+    }
+
+    ~FailureReport()
+    {
+      MPI_Comm_free(&communicator);
+    }
 
     FailureReport(const FailureReport &) = delete;
     FailureReport &
@@ -43,59 +50,44 @@ namespace
     /** Print the text, and return the status as a number, or end the program
      * with it. Waits some seconds for the other ranks. */
     int
-    end(const ExitStatus status, const std::string &text);
+    end(const ExitStatus status, const std::string &text)
+    {
+      const bool in_order = all_have_failed();
+      if (!in_order ||
+          dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        std::cerr << printable(text) << std::endl;
+      if (!in_order)
+        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
+      return static_cast<int>(status);
+    }
 
   private:
     /** Whether all ranks have come here within some seconds. */
     bool
-    all_have_failed();
+    all_have_failed()
+    {
+      using namespace std::chrono_literals;
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return true;
+      // of several ranks that fail one shall be the first to report it
+      const auto patience =
+        3s + 100ms * dealii::Utilities::MPI::this_mpi_process(communicator);
+      const auto  start = std::chrono::steady_clock::now();
+      MPI_Request request;
+      MPI_Ibarrier(communicator, &request);
+      int all_are_here = 0;
+      while (true)
+        {
+          MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE);
+          if (all_are_here ||
+              std::chrono::steady_clock::now() - start > patience)
+            return all_are_here;
+          std::this_thread::sleep_for(1ms);
+        }
+    }
 
     MPI_Comm communicator = MPI_COMM_NULL; // for this purpose alone
   };
-
-  FailureReport::FailureReport(const MPI_Comm communicator)
-  {
-    MPI_Comm_dup(communicator, &this->communicator);
-  }
-
-  FailureReport::~FailureReport()
-  {
-    MPI_Comm_free(&communicator);
-  }
-
-  int
-  FailureReport::end(const ExitStatus status, const std::string &text)
-  {
-    const bool in_order = all_have_failed();
-    if (!in_order ||
-        dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::cerr << printable(text) << std::endl;
-    if (!in_order)
-      MPI_Abort(MPI_COMM_WORLD, static_cast<int>(status));
-    return static_cast<int>(status);
-  }
-
-  bool
-  FailureReport::all_have_failed()
-  {
-    using namespace std::chrono_literals;
-    if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
-      return true;
-    // of several ranks that fail one shall be the first to report it
-    const auto patience =
-      3s + 100ms * dealii::Utilities::MPI::this_mpi_process(communicator);
-    const auto  start = std::chrono::steady_clock::now();
-    MPI_Request request;
-    MPI_Ibarrier(communicator, &request);
-    int all_are_here = 0;
-    while (true)
-      {
-        MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE);
-        if (all_are_here || std::chrono::steady_clock::now() - start > patience)
-          return all_are_here;
-        std::this_thread::sleep_for(1ms);
-      }
-  }
 
   /** Where standard input, output or error is closed, open a file there that is
    * always full: a file of results would get its number, and the text. */

@@ -50,8 +50,8 @@ namespace CaissonMPM
       {"Method/Velocity limiter",
        "Set Limiter factor = none in the place of false."},
       {"Grid/Upper zone",
-       "Remove it: the mesh above the body moves with it. Raise Grid/Top by the "
-       "travel."},
+       "Remove it: the mesh above the body moves with it. Raise Grid/Top by "
+       "the travel."},
       {"Rigid body/Friction coefficient of the k",
        "Set the Friction angle, whose tangent it is."},
       {"Rigid body/Lowering delay", "Remove it: it is 0.02 s."},
@@ -186,10 +186,52 @@ namespace CaissonMPM
 
       /** @p place is the line that includes the file, empty if none. */
       void
-      read_file(const std::string &name, const std::string &place = "");
+      read_file(const std::string &name, const std::string &place = "")
+      {
+        if (files.empty())
+          scene = name;
+        const std::string text = read_text(name, place);
+        check_new(name, place);
+        files.push_back({name, place, true, false, {}, {}});
+        for (const Line &line : read_lines(text))
+          read_line(line);
+        if (!open().empty())
+          throw BadInput(at(open().back().line) + ": subsection " +
+                         quote(open().back().path) +
+                         " is opened here and never closed.\n  Add \"end\".");
+        if (files.back().place_of_entry.empty() && !files.back().has_included)
+          throw BadInput((place.empty() ? "The" : place + ": the") +
+                         " parameter file " + quote(name) +
+                         " sets no entry.\n  Is it the right file? Start from "
+                         "one of the examples in prm/." +
+                         list_hint);
+        files.pop_back();
+      }
 
       void
-      read_overrides(const std::vector<std::string> &overrides);
+      read_overrides(const std::vector<std::string> &overrides)
+      {
+        // An override replaces what the file says, but not another override.
+        // Its paths are those of the scene.
+        files.push_back({});
+        files.back().name = scene;
+        for (const std::string &written : overrides)
+          {
+            const std::string text       = with_plain_spaces(written);
+            const std::string place      = "--set " + quote(text);
+            const std::size_t equal_sign = text.find('=');
+            if (equal_sign == std::string::npos)
+              throw BadInput(place +
+                             ": the \"=\" is missing.\n  Write --set "
+                             "\"Section/Entry=value\" (mind the quotes).");
+            const std::string path = normalize_path(text.substr(0, equal_sign));
+            has_subsection(path.substr(0, path.rfind('/')));
+            if (find_entry(path) == nullptr)
+              throw BadInput(unknown_entry(path, place) + list_hint);
+            set(path, boost::trim_copy(text.substr(equal_sign + 1)), place);
+          }
+        files.pop_back();
+      }
 
       const ParameterOrigins &
       get_origins() const
@@ -216,47 +258,216 @@ namespace CaissonMPM
       };
 
       void
-      read_line(const Line &line);
+      read_line(const Line &line)
+      {
+        if (line.text.empty())
+          return;
+        const std::size_t length =
+          std::min(line.text.find_first_of(" \t\v\f"), line.text.size());
+        const std::string word = line.text.substr(0, length);
+        const std::string rest = boost::trim_copy(line.text.substr(length));
+
+        if (word == "include" || word == "INCLUDE")
+          return include(rest, line.number);
+        files.back().may_include = false;
+        if (word == "set" || word == "SET")
+          read_set(rest, line);
+        else if (word == "subsection" || word == "SUBSECTION")
+          enter_subsection(condense(rest), line.number);
+        else if (word == "end" || word == "END")
+          leave_subsection(rest, line.number);
+        else
+          throw BadInput(at(line.number) + ": " + quote(line.text) +
+                         " cannot be read.\n  A line is \"subsection Name\", "
+                         "\"set Name = value\", \"end\", \"include FILE\", or "
+                         "a comment after \"#\".");
+      }
+
       void
-      include(const std::string &name, const unsigned int line);
+      include(const std::string &name, const unsigned int line)
+      {
+        const std::string place = at(line);
+        if (name.empty())
+          throw BadInput(place + ": \"include\" needs a file name.\n  Write "
+                                 "\"include other.prm\".");
+        if (!files.back().may_include)
+          throw BadInput(place +
+                         ": \"include\" must come before the first \"set\" and "
+                         "\"subsection\".\n  A file then changes what it "
+                         "includes, and not the other way round.");
+        const auto directory = std::filesystem::path(files.back().name);
+        read_file((directory.parent_path() / name).lexically_normal().string(),
+                  place);
+        files.back().has_included = true;
+      }
+
       void
-      read_set(const std::string &assignment, const Line &line);
+      read_set(const std::string &assignment, const Line &at_line)
+      {
+        const unsigned int line       = at_line.number;
+        const std::size_t  equal_sign = assignment.find('=');
+        const std::string  name = condense(assignment.substr(0, equal_sign));
+        if (equal_sign == std::string::npos || name.empty())
+          throw BadInput(at(line) + ": " + quote("set " + assignment) +
+                         " cannot be read.\n  Write \"set Name = value\".");
+        const std::string        path  = full_path(name);
+        const EntryRecord *const entry = find_entry(path);
+        if (entry == nullptr)
+          throw BadInput(unknown_entry(path, at(line)) +
+                         missing_end_hint(name) + list_hint);
+        if (entry->name != name)
+          throw BadInput(at(line) + ": " + quote(name) +
+                         " is a path.\n  In a file, write \"set " +
+                         entry->name + " = ...\" between " +
+                         quote("subsection " + name.substr(0, name.find('/'))) +
+                         " and \"end\".");
+        set(path,
+            boost::trim_copy(assignment.substr(equal_sign + 1)),
+            at(line),
+            at_line.comment.find("ASSUMED") != std::string::npos);
+      }
+
       void
-      enter_subsection(const std::string &name, const unsigned int line);
+      enter_subsection(const std::string &name, const unsigned int line)
+      {
+        if (name.empty())
+          throw BadInput(at(line) + ": \"subsection\" needs a name.\n  Write "
+                                    "\"subsection Name\".");
+        if (name.find('/') != std::string::npos)
+          throw BadInput(at(line) + ": " + quote(name) +
+                         " is a path.\n  Open one subsection per line.");
+        const std::string path = full_path(name);
+        if (!has_subsection(path))
+          throw BadInput(at(line) + ": there is no subsection " + quote(path) +
+                         "." +
+                         did_you_mean(nearest_names(path, section_paths())) +
+                         missing_end_hint(name) + list_hint);
+        open().push_back({path, line});
+      }
+
       void
-      leave_subsection(const std::string &rest, const unsigned int line);
+      leave_subsection(const std::string &rest, const unsigned int line)
+      {
+        if (!rest.empty())
+          throw BadInput(at(line) + ": " + quote("end " + rest) +
+                         " cannot be read.\n  \"end\" must be alone on its "
+                         "line; a comment begins with \"#\".");
+        if (open().empty())
+          throw BadInput(
+            at(line) + ": this \"end\" closes no subsection.\n  Remove it, or "
+                       "add the \"subsection\" that it belongs to.");
+        open().pop_back();
+      }
 
       /** Check and set one entry; @p place is "jack.prm:12" or "--set ...". */
       void
       set(const std::string &path,
           const std::string &value,
           const std::string &place,
-          const bool         is_assumed = false);
+          const bool         is_assumed = false)
+      {
+        const EntryRecord &entry = *find_entry(path);
+        const auto [earlier, is_new] =
+          files.back().place_of_entry.insert({entry.path, place});
+        if (!is_new)
+          throw BadInput(place + ": " + quote(entry.path) +
+                         " is set a second time, first at " + earlier->second +
+                         ".\n  Remove one of the two.");
+        const std::string present =
+          present_value(entry, in_one_line(value, entry.path, place), place);
+        set_value(entry, present, place);
+        const bool is_included = files.size() > 1;
+        origins.record(
+          entry.path,
+          place,
+          is_included || present == entry.default_value,
+          is_assumed,
+          std::filesystem::path(files.back().name).parent_path().string());
+      }
 
       /** The value, or the word where an old special number stands for it. */
       std::string
       present_value(const EntryRecord &entry,
                     const std::string &value,
-                    const std::string &place);
+                    const std::string &place)
+      {
+        const auto *either =
+          dynamic_cast<const WordOrNumber *>(entry.pattern.get());
+        if (either == nullptr || !either->is_old_value(value))
+          return value;
+        origins.add_warning(place + ": " + quote(entry.path) + " = " + value +
+                            " is now written " + quote(either->word) +
+                            "; the number will no longer be accepted.");
+        return either->word;
+      }
 
       /** What to say where there is no such entry. */
       std::string
-      unknown_entry(const std::string &path, const std::string &place) const;
+      unknown_entry(const std::string &path, const std::string &place) const
+      {
+        if (has_section(path))
+          return place + ": " + quote(path) + " is a subsection, not an entry.";
+        if (const std::string advice = advice_on_removed(path); !advice.empty())
+          return place + ": there is no entry " + quote(path) +
+                 " any more.\n  " + advice;
+        std::vector<std::string> names = names_of_symbol(path, entry_paths());
+        if (names.empty())
+          names = nearest_names(path, entry_paths());
+        return place + ": there is no entry " + quote(path) + "." +
+               did_you_mean(names);
+      }
 
       std::string
-      full_path(const std::string &name) const;
+      full_path(const std::string &name) const
+      {
+        return open().empty() ? name : open().back().path + "/" + name;
+      }
 
       /** A hint, should this name be known outside the open subsections. */
       std::string
-      missing_end_hint(const std::string &name) const;
+      missing_end_hint(const std::string &name) const
+      {
+        for (std::size_t n_open = open().size(); n_open > 0; --n_open)
+          {
+            const std::string outside =
+              n_open > 1 ? open()[n_open - 2].path + "/" + name : name;
+            if (find_entry(outside) != nullptr || has_section(outside))
+              return "\n  Or is an \"end\" missing? Subsection " +
+                     quote(open()[n_open - 1].path) + " is open since line " +
+                     to_text(open()[n_open - 1].line) + ".";
+          }
+        return "";
+      }
 
       /** The line's place, and that of the "include" that leads to it. */
       std::string
-      at(const unsigned int line) const;
+      at(const unsigned int line) const
+      {
+        const OpenFile &file = files.back();
+        return file.name + ":" + to_text(line) +
+               (file.included_at.empty() ? "" :
+                                           ", included by " + file.included_at);
+      }
 
       /** Refuse a file that has been read before. */
       void
-      check_new(const std::string &name, const std::string &place);
+      check_new(const std::string &name, const std::string &place)
+      {
+        const auto key             = canonical(name);
+        const auto [entry, is_new] = place_of_include.insert({key, place});
+        if (is_new)
+          return;
+        for (const OpenFile &file : files)
+          if (canonical(file.name) == key)
+            throw BadInput(place + ": the file " + quote(name) +
+                           " includes itself.\n  Remove one of the \"include\" "
+                           "lines on the way.");
+        throw BadInput(
+          place + ": the file " + quote(name) +
+          " is included a second time, first at " + entry->second +
+          ".\n  It would undo the settings made since then. Remove "
+          "one of the two.");
+      }
 
       /** The subsections that are open in the present file. */
       std::vector<OpenSubsection> &
@@ -264,6 +475,7 @@ namespace CaissonMPM
       {
         return files.back().open;
       }
+
       const std::vector<OpenSubsection> &
       open() const
       {
@@ -272,7 +484,11 @@ namespace CaissonMPM
 
       /** Whether there is such a subsection, or one could be declared. */
       bool
-      has_subsection(const std::string &path);
+      has_subsection(const std::string &path)
+      {
+        return has_section(path) || is_removed_section(path) ||
+               (declare && declare(path));
+      }
 
       const DeclareSubsection           &declare;
       ParameterOrigins                   origins;
@@ -280,267 +496,6 @@ namespace CaissonMPM
       std::string                        scene; // the file that includes others
       std::map<std::string, std::string> place_of_include;
     };
-
-    std::string
-    Reader::at(const unsigned int line) const
-    {
-      const OpenFile &file = files.back();
-      return file.name + ":" + to_text(line) +
-             (file.included_at.empty() ? "" :
-                                         ", included by " + file.included_at);
-    }
-
-    std::string
-    Reader::full_path(const std::string &name) const
-    {
-      return open().empty() ? name : open().back().path + "/" + name;
-    }
-
-    void
-    Reader::check_new(const std::string &name, const std::string &place)
-    {
-      const auto key             = canonical(name);
-      const auto [entry, is_new] = place_of_include.insert({key, place});
-      if (is_new)
-        return;
-      for (const OpenFile &file : files)
-        if (canonical(file.name) == key)
-          throw BadInput(place + ": the file " + quote(name) +
-                         " includes itself.\n  Remove one of the \"include\" "
-                         "lines on the way.");
-      throw BadInput(place + ": the file " + quote(name) +
-                     " is included a second time, first at " + entry->second +
-                     ".\n  It would undo the settings made since then. Remove "
-                     "one of the two.");
-    }
-
-    void
-    Reader::read_file(const std::string &name, const std::string &place)
-    {
-      if (files.empty())
-        scene = name;
-      const std::string text = read_text(name, place);
-      check_new(name, place);
-      files.push_back({name, place, true, false, {}, {}});
-      for (const Line &line : read_lines(text))
-        read_line(line);
-      if (!open().empty())
-        throw BadInput(at(open().back().line) + ": subsection " +
-                       quote(open().back().path) +
-                       " is opened here and never closed.\n  Add \"end\".");
-      if (files.back().place_of_entry.empty() && !files.back().has_included)
-        throw BadInput((place.empty() ? "The" : place + ": the") +
-                       " parameter file " + quote(name) +
-                       " sets no entry.\n  Is it the right file? Start from "
-                       "one of the examples in prm/." +
-                       list_hint);
-      files.pop_back();
-    }
-
-    void
-    Reader::include(const std::string &name, const unsigned int line)
-    {
-      const std::string place = at(line);
-      if (name.empty())
-        throw BadInput(place + ": \"include\" needs a file name.\n  Write "
-                               "\"include other.prm\".");
-      if (!files.back().may_include)
-        throw BadInput(place +
-                       ": \"include\" must come before the first \"set\" and "
-                       "\"subsection\".\n  A file then changes what it "
-                       "includes, and not the other way round.");
-      const auto directory = std::filesystem::path(files.back().name);
-      read_file((directory.parent_path() / name).lexically_normal().string(),
-                place);
-      files.back().has_included = true;
-    }
-
-    void
-    Reader::read_line(const Line &line)
-    {
-      if (line.text.empty())
-        return;
-      const std::size_t length =
-        std::min(line.text.find_first_of(" \t\v\f"), line.text.size());
-      const std::string word = line.text.substr(0, length);
-      const std::string rest = boost::trim_copy(line.text.substr(length));
-
-      if (word == "include" || word == "INCLUDE")
-        return include(rest, line.number);
-      files.back().may_include = false;
-      if (word == "set" || word == "SET")
-        read_set(rest, line);
-      else if (word == "subsection" || word == "SUBSECTION")
-        enter_subsection(condense(rest), line.number);
-      else if (word == "end" || word == "END")
-        leave_subsection(rest, line.number);
-      else
-        throw BadInput(at(line.number) + ": " + quote(line.text) +
-                       " cannot be read.\n  A line is \"subsection Name\", "
-                       "\"set Name = value\", \"end\", \"include FILE\", or "
-                       "a comment after \"#\".");
-    }
-
-    void
-    Reader::read_set(const std::string &assignment, const Line &at_line)
-    {
-      const unsigned int line       = at_line.number;
-      const std::size_t  equal_sign = assignment.find('=');
-      const std::string  name = condense(assignment.substr(0, equal_sign));
-      if (equal_sign == std::string::npos || name.empty())
-        throw BadInput(at(line) + ": " + quote("set " + assignment) +
-                       " cannot be read.\n  Write \"set Name = value\".");
-      const std::string        path  = full_path(name);
-      const EntryRecord *const entry = find_entry(path);
-      if (entry == nullptr)
-        throw BadInput(unknown_entry(path, at(line)) + missing_end_hint(name) +
-                       list_hint);
-      if (entry->name != name)
-        throw BadInput(at(line) + ": " + quote(name) +
-                       " is a path.\n  In a file, write \"set " + entry->name +
-                       " = ...\" between " +
-                       quote("subsection " + name.substr(0, name.find('/'))) +
-                       " and \"end\".");
-      set(path,
-          boost::trim_copy(assignment.substr(equal_sign + 1)),
-          at(line),
-          at_line.comment.find("ASSUMED") != std::string::npos);
-    }
-
-    void
-    Reader::enter_subsection(const std::string &name, const unsigned int line)
-    {
-      if (name.empty())
-        throw BadInput(at(line) + ": \"subsection\" needs a name.\n  Write "
-                                  "\"subsection Name\".");
-      if (name.find('/') != std::string::npos)
-        throw BadInput(at(line) + ": " + quote(name) +
-                       " is a path.\n  Open one subsection per line.");
-      const std::string path = full_path(name);
-      if (!has_subsection(path))
-        throw BadInput(at(line) + ": there is no subsection " + quote(path) +
-                       "." +
-                       did_you_mean(nearest_names(path, section_paths())) +
-                       missing_end_hint(name) + list_hint);
-      open().push_back({path, line});
-    }
-
-    bool
-    Reader::has_subsection(const std::string &path)
-    {
-      return has_section(path) || is_removed_section(path) ||
-             (declare && declare(path));
-    }
-
-    void
-    Reader::leave_subsection(const std::string &rest, const unsigned int line)
-    {
-      if (!rest.empty())
-        throw BadInput(at(line) + ": " + quote("end " + rest) +
-                       " cannot be read.\n  \"end\" must be alone on its "
-                       "line; a comment begins with \"#\".");
-      if (open().empty())
-        throw BadInput(at(line) +
-                       ": this \"end\" closes no subsection.\n  Remove it, or "
-                       "add the \"subsection\" that it belongs to.");
-      open().pop_back();
-    }
-
-    std::string
-    Reader::unknown_entry(const std::string &path,
-                          const std::string &place) const
-    {
-      if (has_section(path))
-        return place + ": " + quote(path) + " is a subsection, not an entry.";
-      if (const std::string advice = advice_on_removed(path); !advice.empty())
-        return place + ": there is no entry " + quote(path) + " any more.\n  " +
-               advice;
-      std::vector<std::string> names = names_of_symbol(path, entry_paths());
-      if (names.empty())
-        names = nearest_names(path, entry_paths());
-      return place + ": there is no entry " + quote(path) + "." +
-             did_you_mean(names);
-    }
-
-    std::string
-    Reader::missing_end_hint(const std::string &name) const
-    {
-      for (std::size_t n_open = open().size(); n_open > 0; --n_open)
-        {
-          const std::string outside =
-            n_open > 1 ? open()[n_open - 2].path + "/" + name : name;
-          if (find_entry(outside) != nullptr || has_section(outside))
-            return "\n  Or is an \"end\" missing? Subsection " +
-                   quote(open()[n_open - 1].path) + " is open since line " +
-                   to_text(open()[n_open - 1].line) + ".";
-        }
-      return "";
-    }
-
-    void
-    Reader::read_overrides(const std::vector<std::string> &overrides)
-    {
-      // An override replaces what the file says, but not another override. Its
-      // paths are those of the scene.
-      files.push_back({});
-      files.back().name = scene;
-      for (const std::string &written : overrides)
-        {
-          const std::string text       = with_plain_spaces(written);
-          const std::string place      = "--set " + quote(text);
-          const std::size_t equal_sign = text.find('=');
-          if (equal_sign == std::string::npos)
-            throw BadInput(place +
-                           ": the \"=\" is missing.\n  Write --set "
-                           "\"Section/Entry=value\" (mind the quotes).");
-          const std::string path = normalize_path(text.substr(0, equal_sign));
-          has_subsection(path.substr(0, path.rfind('/')));
-          if (find_entry(path) == nullptr)
-            throw BadInput(unknown_entry(path, place) + list_hint);
-          set(path, boost::trim_copy(text.substr(equal_sign + 1)), place);
-        }
-      files.pop_back();
-    }
-
-    void
-    Reader::set(const std::string &path,
-                const std::string &value,
-                const std::string &place,
-                const bool         is_assumed)
-    {
-      const EntryRecord &entry = *find_entry(path);
-      const auto [earlier, is_new] =
-        files.back().place_of_entry.insert({entry.path, place});
-      if (!is_new)
-        throw BadInput(place + ": " + quote(entry.path) +
-                       " is set a second time, first at " + earlier->second +
-                       ".\n  Remove one of the two.");
-      const std::string present =
-        present_value(entry, in_one_line(value, entry.path, place), place);
-      set_value(entry, present, place);
-      const bool is_included = files.size() > 1;
-      origins.record(
-        entry.path,
-        place,
-        is_included || present == entry.default_value,
-        is_assumed,
-        std::filesystem::path(files.back().name).parent_path().string());
-    }
-
-    std::string
-    Reader::present_value(const EntryRecord &entry,
-                          const std::string &value,
-                          const std::string &place)
-    {
-      const auto *either =
-        dynamic_cast<const WordOrNumber *>(entry.pattern.get());
-      if (either == nullptr || !either->is_old_value(value))
-        return value;
-      origins.add_warning(place + ": " + quote(entry.path) + " = " + value +
-                          " is now written " + quote(either->word) +
-                          "; the number will no longer be accepted.");
-      return either->word;
-    }
   } // namespace
 
   ParameterOrigins
