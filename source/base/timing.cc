@@ -13,30 +13,20 @@ namespace CaissonMPM
     const std::string beginning = "seconds_of_"; // of a name in a checkpoint
   }
 
-  unsigned int
-  SectionTimer::section(const std::string &name)
+  double &
+  SectionTimer::seconds_of(const std::string &section)
   {
-    for (unsigned int i = 0; i < sections.size(); ++i)
-      if (sections[i].first == name)
-        return i;
-    sections.emplace_back(name, 0);
-    return sections.size() - 1;
-  }
-
-  NamedNumbers
-  SectionTimer::seconds() const
-  {
-    NamedNumbers result;
-    for (const auto &[name, time] : sections)
-      result.emplace_back(name, std::chrono::duration<double>(time).count());
-    return result;
+    for (auto &[name, seconds] : sections)
+      if (name == section)
+        return seconds;
+    return sections.emplace_back(section, 0.).second;
   }
 
   NamedNumbers
   SectionTimer::state() const
   {
-    NamedNumbers result = seconds();
-    for (auto &[name, time] : result)
+    NamedNumbers result = sections;
+    for (auto &[name, seconds] : result)
       {
         std::replace(name.begin(), name.end(), ' ', '_');
         name = beginning + name;
@@ -52,9 +42,7 @@ namespace CaissonMPM
         {
           std::string name = key.substr(beginning.size());
           std::replace(name.begin(), name.end(), '_', ' ');
-          sections[section(name)].second +=
-            std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-              std::chrono::duration<double>(seconds));
+          seconds_of(name) += seconds;
         }
   }
 

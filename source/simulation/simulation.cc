@@ -75,41 +75,34 @@ namespace CaissonMPM
   void
   Simulation::advance()
   {
-    timed("choose step", [&]() { choose_step(); });
-    timed("pore water", [&]() {
+    timer.time("choose step", [&]() { choose_step(); });
+    timer.time("pore water", [&]() {
       water->begin_step(clock.step_size, boundary_conditions, contact);
     });
-    timed("move body", [&]() { move_body_by_itself(); });
-    timed("contact", [&]() { set_strength_of_walls(); });
-    timed("points to grid", [&]() {
+    timer.time("move body", [&]() { move_body_by_itself(); });
+    timer.time("contact", [&]() { set_strength_of_walls(); });
+    timer.time("points to grid", [&]() {
       nodal_motion.collect(soil_on_grid(), nodal_forces, clock.time);
     });
-    timed("nodal motion", [&]() {
+    timer.time("nodal motion", [&]() {
       nodal_motion.accelerate(size_of_step(),
                               nodal_forces,
                               body.mean_velocity(),
                               contact);
     });
-    timed("move body", [&]() { move_body_with_soil(); });
-    timed("implicit forces", [&]() { correct_velocities(); });
-    timed("contact", [&]() { constrain_velocities(); });
-    timed("transfer", [&]() { prepare_transfer(); });
-    timed("move mesh", [&]() { grid.prepare_motion(body.motion().travel()); });
-    timed("grid to points", [&]() { update_points(); });
-    timed("relocate", [&]() {
+    timer.time("move body", [&]() { move_body_with_soil(); });
+    timer.time("implicit forces", [&]() { correct_velocities(); });
+    timer.time("contact", [&]() { constrain_velocities(); });
+    timer.time("transfer", [&]() { prepare_transfer(); });
+    timer.time("move mesh",
+               [&]() { grid.prepare_motion(body.motion().travel()); });
+    timer.time("grid to points", [&]() { update_points(); });
+    timer.time("relocate", [&]() {
       grid.advance();
       relocate_points();
     });
-    timed("split and merge", [&]() { adapt_points(); });
+    timer.time("split and merge", [&]() { adapt_points(); });
     finish_step();
-  }
-
-  template <typename Action>
-  void
-  Simulation::timed(const char *section, const Action &action)
-  {
-    SectionTimer::Scope scope(timer, timer.section(section));
-    action();
   }
 
   double
@@ -371,7 +364,6 @@ namespace CaissonMPM
   void
   Simulation::output()
   {
-    SectionTimer::Scope scope(timer, timer.section("output"));
     const Schedule::Due due = schedule.take_due();
     if (due.record || due.frame)
       water->write_pressure_to_points();
@@ -551,11 +543,11 @@ namespace CaissonMPM
     while (!schedule.is_finished() && water->reason_to_end().empty())
       {
         if (rebuild_is_due())
-          timed("rebuild caches", [this]() { rebuild_caches(); });
+          timer.time("rebuild caches", [this]() { rebuild_caches(); });
         advance();
-        output();
+        timer.time("output", [this]() { output(); });
         if (grid.n_ranks() > 1 && clock.step % Intervals::balance == 0)
-          timed("balance", [this]() { balance(); });
+          timer.time("balance", [this]() { balance(); });
         const std::string reason = reason_to_stop();
         if (!reason.empty())
           return stop(reason);

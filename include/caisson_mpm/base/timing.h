@@ -8,62 +8,39 @@
 
 #include <chrono>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace CaissonMPM
 {
   /**
-   * Sums the wall time that is spent in named sections. The name is looked up
-   * once; a scope then costs two readings of the clock (about 50 ns), so it
-   * may stand around each line of a time step, but not around work on one
-   * cell. Sections may nest: each counts its full time. Local to a rank.
+   * Sums the wall time that is spent in named sections. It may stand around
+   * each line of a time step, but not around work on one cell. Sections may
+   * nest: each counts its full time. Local to a rank.
    *
    * @code
-   * const unsigned int transfer = timer.section("points to grid");
-   * {
-   *   SectionTimer::Scope scope(timer, transfer);
-   *   points_to_grid();
-   * }
+   * timer.time("points to grid", [&]() { points_to_grid(); });
    * @endcode
    */
   class SectionTimer
   {
   public:
-    /** The time from construction to destruction goes to one section. */
-    class Scope
+    /** Call action(), whose time goes to the section of this name. */
+    template <typename Action>
+    void
+    time(const std::string &section, const Action &action)
     {
-    public:
-      Scope(SectionTimer &timer, const unsigned int section)
-        : timer(timer)
-        , section(section)
-        , start(Clock::now())
-      {}
-
-      ~Scope()
-      {
-        timer.sections[section].second += Clock::now() - start;
-      }
-
-      Scope(const Scope &) = delete;
-      Scope &
-      operator=(const Scope &) = delete;
-
-    private:
-      using Clock = std::chrono::steady_clock;
-
-      SectionTimer           &timer;
-      const unsigned int      section;
-      const Clock::time_point start;
-    };
-
-    /** The index of the section of this name, which is added if new. */
-    unsigned int
-    section(const std::string &name);
+      using Clock      = std::chrono::steady_clock;
+      const auto start = Clock::now();
+      action();
+      seconds_of(section) +=
+        std::chrono::duration<double>(Clock::now() - start).count();
+    }
 
     /** Name and seconds of each section, in the order of their first use. */
-    NamedNumbers
-    seconds() const;
+    const NamedNumbers &
+    seconds() const
+    {
+      return sections;
+    }
 
     /** The seconds, with names for a checkpoint. */
     NamedNumbers
@@ -74,8 +51,11 @@ namespace CaissonMPM
     resume(const NamedNumbers &state);
 
   private:
-    std::vector<std::pair<std::string, std::chrono::steady_clock::duration>>
-      sections;
+    /** Those of a section, which is added if new. */
+    double &
+    seconds_of(const std::string &section);
+
+    NamedNumbers sections;
   };
 
   /** The largest resident memory of this process so far. Units: bytes. */

@@ -152,9 +152,6 @@ namespace CaissonMPM
     continue_from_installation();
     void
     advance();
-    template <typename Action>
-    void
-    timed(const char *section, const Action &action);
     // the parts of a step, in their order
     /** See TimeStep::follow_tip(); once the body has this travel (m). */
     double
