@@ -116,8 +116,8 @@ check_contents(Scene &s)
                 "no");
   std::printf("the same state: %s\n",
               checkpoint.info.state == NamedNumbers{{"time", .7},
-                                                 {"third", 1. / 3.},
-                                                 {"large", 1e300}} ?
+                                                    {"third", 1. / 3.},
+                                                    {"large", 1e300}} ?
                 "yes" :
                 "no");
   std::printf("the same warnings: %s\n",
