@@ -41,8 +41,7 @@ namespace CaissonMPM
   NodalMomentum::update_filled(const Kernels::StepContext &step)
   {
     // 1. the sum of the filled shares of the cells at each node, on all ranks
-    filled_ = 0.;
-    filled_.zero_out_ghost_values();
+    filled_              = 0.;
     double *const filled = filled_.begin();
     for (unsigned int i = 0; i < step.points.n_active_cells; ++i)
       {
@@ -68,8 +67,7 @@ namespace CaissonMPM
                          NodalForces        &forces)
   {
     update_filled(context.step);
-    sums_ = 0.;
-    sums_.zero_out_ghost_values();
+    sums_             = 0.;
     auto *const nodes = reinterpret_cast<NodalSums *>(sums_.begin());
     context.kernels.points_to_grid(context.step, nodes);
     for (const auto &force : forces)
@@ -84,7 +82,6 @@ namespace CaissonMPM
   NodalMomentum::correct(const ForceContext &context, NodalForces &forces)
   {
     change = 0.;
-    change.zero_out_ghost_values();
     for (const auto &force : forces)
       force->correct(context, nodal_vectors(change));
     hanging_nodes->distribute(change, 2);

@@ -99,8 +99,7 @@ namespace CaissonMPM
   SelectiveMass::apply(NodalData &from, NodalData &to) const
   {
     hanging_nodes->interpolate(from, 2);
-    to = 0.;
-    to.zero_out_ghost_values();
+    to                         = 0.;
     const NodalVector *const x = nodal_vectors(from);
     NodalVector *const       y = nodal_vectors(to);
     for (const Cell &c : cells)
@@ -143,7 +142,6 @@ namespace CaissonMPM
                        *const p = nodal_vectors(direction),
                        *const w = nodal_vectors(withheld);
     direction                   = 0.;
-    direction.zero_out_ghost_values();
     for (unsigned int i = 0; i < n_nodes; ++i)
       if (nodes[i].deformation_mass > 0.)
         {

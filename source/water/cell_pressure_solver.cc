@@ -193,7 +193,6 @@ namespace CaissonMPM
     with_ghosts.copy_locally_owned_data_from(from);
     with_ghosts.update_ghost_values();
     to = 0.;
-    to.zero_out_ghost_values();
     subtract_flow(with_ghosts, {}, to);
     to *= -1.;
     for (unsigned int i = 0; i < partitioner->locally_owned_size(); ++i)

@@ -254,8 +254,7 @@ namespace CaissonMPM
   PressureProjection::compute_source(const KnownPressures &before)
   {
     // dt sum_f I_f (p'_c - p'_f): v* has had the force of p' already
-    source = 0.;
-    source.zero_out_ghost_values();
+    source            = 0.;
     const auto &faces = solver_.faces();
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
@@ -369,8 +368,7 @@ namespace CaissonMPM
   const NodalData &
   PressureProjection::find_outflow()
   {
-    at_nodes.outflow = 0.;
-    at_nodes.outflow.zero_out_ghost_values();
+    at_nodes.outflow  = 0.;
     const auto &faces = solver_.faces();
     for (std::size_t f = 0; f < faces.size(); ++f)
       {
@@ -412,10 +410,7 @@ namespace CaissonMPM
   PressureProjection::find_nodal_pressure()
   {
     for (NodalData *v : {&at_nodes.pressure, &at_nodes.conductance})
-      {
-        *v = 0.;
-        v->zero_out_ghost_values();
-      }
+      *v = 0.;
     // As much flows to a node from one side as flows from it to the other, so
     // that the pressure of the center that is nearer, or from which water flows
     // with less resistance, counts more. A hanging node follows later.

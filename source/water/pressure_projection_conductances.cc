@@ -98,7 +98,6 @@ namespace CaissonMPM
   {
     NodalData &v = at_nodes.volume;
     v            = 0.;
-    v.zero_out_ghost_values();
     // the soil of a cell that the mudline cuts is in its lower part
     for (const unsigned int cell : solver_.cells())
       {

@@ -106,8 +106,7 @@ namespace CaissonMPM
   void
   Seepage::apply(const NodalData &from, NodalData &to) const
   {
-    to = 0.;
-    to.zero_out_ghost_values();
+    to                    = 0.;
     const double *const x = from.begin();
     double *const       y = to.begin();
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -193,7 +192,6 @@ namespace CaissonMPM
     // 2. the known values alone, from which the tolerance follows
     phi.zero_out_ghost_values();
     correction = 0.;
-    correction.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_owned_nodes(); ++node)
       if (state(node) != unknown)
         correction.local_element(node) = phi.local_element(node) =

@@ -49,7 +49,6 @@ namespace CaissonMPM
     const std::function<void(Kernels::NodalVector *)> &correct = {})
   {
     to = 0.;
-    to.zero_out_ghost_values();
     kernels.apply_mass(step, nodal_vectors(from), nodal_vectors(to));
     if (correct)
       correct(nodal_vectors(to));

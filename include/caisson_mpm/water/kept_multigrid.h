@@ -54,7 +54,6 @@ namespace CaissonMPM
     {
       const auto iterate = [&](const unsigned int max_iterations) {
         correction = 0.;
-        correction.zero_out_ghost_values();
         dealii::SolverControl       control(max_iterations, tolerance);
         dealii::SolverCG<NodalData> solver(control);
         try
