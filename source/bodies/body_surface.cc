@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/base/choice.h>
-#include <caisson_mpm/base/conventions.h>
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/bodies/body_surface.h>
 
 #include <deal.II/base/patterns.h>
-
-#include <cmath>
 
 namespace CaissonMPM
 {
@@ -49,12 +46,6 @@ namespace CaissonMPM
                       Patterns::Double(0.))
           .influence = Influence::motion;
       }
-  }
-
-  double
-  BodySurface::friction_coefficient(const Surface surface) const
-  {
-    return std::tan(radians(friction_angle[surface]));
   }
 
   void

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/operators/contact_face.h>
 
+#include <cmath>
+
 namespace CaissonMPM
 {
   namespace
@@ -51,7 +53,7 @@ namespace CaissonMPM
   FaceStrength
   strength_of(const BodySurface &body, const ContactFace &face)
   {
-    return {body.friction_coefficient(face.surface),
+    return {std::tan(radians(body.friction_angle[face.surface])),
             body.adhesion[face.surface]};
   }
 

@@ -71,8 +71,8 @@ namespace CaissonMPM
   } // namespace
 
   WallFile::WallFile(const std::string &directory, const Scene &scene)
-    : scene(scene)
-    , file(directory + "/wall.csv", names_of_columns(scene), 10)
+    : RowFile(directory + "/wall.csv", names_of_columns(scene), 10)
+    , scene(scene)
   {}
 
   void
@@ -105,7 +105,7 @@ namespace CaissonMPM
         // -0 and -nan are nothing to read
         for (double &value : values)
           value = std::isnan(value) ? std::abs(value) : value + 0.;
-        file.append(values);
+        RowFile::append(values);
       }
   }
 } // namespace CaissonMPM

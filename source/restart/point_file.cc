@@ -13,20 +13,6 @@ namespace CaissonMPM
 {
   using namespace dealii;
 
-  Hdf5Errors::Hdf5Errors()
-  {
-    const auto note = [](const hid_t, void *const any) -> herr_t {
-      *static_cast<bool *>(any) = true;
-      return 0;
-    };
-    H5Eset_auto2(H5E_DEFAULT, note, &any_);
-  }
-
-  Hdf5Errors::~Hdf5Errors()
-  {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-
   std::string
   names_of_columns(const unsigned int n_user_state)
   {

@@ -173,9 +173,7 @@ namespace CaissonMPM
   void
   Recorder::start(const bool overwrite)
   {
-    if (overwrite && parts.grid.is_first_rank())
-      clear_directory();
-    else if (!overwrite)
+    if (!overwrite)
       if (const std::string place =
             locked_directory->put_aside(parts.grid.communicator());
           !place.empty())
@@ -183,6 +181,10 @@ namespace CaissonMPM
           {{"earlier run", "its results have been moved to " + place}});
     if (parts.grid.is_first_rank())
       {
+        if (const unsigned int n = overwrite ? locked_directory->clear() : 0)
+          console->header(
+            {{"removed",
+              to_text(n) + " files of an earlier run in " + directory}});
         history->create();
         if (observed)
           observed->create();
@@ -190,15 +192,6 @@ namespace CaissonMPM
           wall_file->create();
       }
     begin();
-  }
-
-  void
-  Recorder::clear_directory()
-  {
-    if (const unsigned int n_files = locked_directory->clear())
-      console->header(
-        {{"removed",
-          to_text(n_files) + " files of an earlier run in " + directory}});
   }
 
   namespace

@@ -44,10 +44,6 @@ namespace CaissonMPM
     name_unused_surfaces(ParameterOrigins &origins,
                          const BodyShape  &shape) const;
 
-    /** The tangent of the friction angle. */
-    double
-    friction_coefficient(const Surface surface) const;
-
     /** Contact friction angles by surface. Units: degrees. */
     std::array<double, n_surfaces> friction_angle = {
       {20., 20., 20., 20., 20., 20.}};

@@ -29,7 +29,7 @@ namespace CaissonMPM
    * are the radial and the vertical traction: their integrals are the forces on
    * the walls. Owned by one rank; not collective.
    */
-  class WallFile
+  class WallFile : public RowFile
   {
   public:
     /** What the columns depend on. */
@@ -42,26 +42,11 @@ namespace CaissonMPM
 
     WallFile(const std::string &directory, const Scene &scene);
 
-    /** Begin a new file. */
-    void
-    create()
-    {
-      file.create();
-    }
-
-    /** Go on after the rows up to this time. Units: s. */
-    void
-    resume(const double time)
-    {
-      file.resume(time);
-    }
-
     void
     append(const WallRecord &record);
 
   private:
     const Scene scene;
-    RowFile     file;
   };
 } // namespace CaissonMPM
 

@@ -25,9 +25,19 @@ namespace CaissonMPM
   class Hdf5Errors
   {
   public:
-    Hdf5Errors();
+    Hdf5Errors()
+    {
+      const auto note = [](const hid_t, void *const any) -> herr_t {
+        *static_cast<bool *>(any) = true;
+        return 0;
+      };
+      H5Eset_auto2(H5E_DEFAULT, note, &any_);
+    }
 
-    ~Hdf5Errors();
+    ~Hdf5Errors()
+    {
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
 
     bool
     any() const

@@ -203,9 +203,6 @@ namespace CaissonMPM
     /** Take the fingerprints of the files as they are. */
     void
     store_file_hashes();
-    /** Remove the results of an earlier run, and say so. */
-    void
-    clear_directory();
     /** Throw BadInput, or warn, where history.csv lacks rows of the run that
      * goes on. */
     void
