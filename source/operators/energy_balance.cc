@@ -110,13 +110,4 @@ namespace CaissonMPM
       {"energy_residual", &E::relative}};
     return all;
   }
-
-  std::vector<std::pair<std::string, double>>
-  EnergyBalance::entries() const
-  {
-    std::vector<std::pair<std::string, double>> entries;
-    for (const Term &term : terms())
-      entries.emplace_back(term.name, this->*term.value);
-    return entries;
-  }
 } // namespace CaissonMPM

@@ -197,8 +197,8 @@ namespace CaissonMPM
       NamedNumbers result = {{"external_work_J", energy.work_of_body},
                              {"water_work_J", energy.work_on_water},
                              {"kinetic_energy_gain_J", energy.kinetic_gain}};
-      for (const auto &entry : energy.entries())
-        result.push_back(entry);
+      for (const EnergyBalance::Term &term : EnergyBalance::terms())
+        result.emplace_back(term.name, energy.*term.value);
       return result;
     }
 

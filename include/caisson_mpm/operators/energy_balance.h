@@ -16,7 +16,6 @@
 #include <caisson_mpm/operators/nodal_work.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CaissonMPM
@@ -71,10 +70,6 @@ namespace CaissonMPM
     /** The terms in the order of history.csv. */
     static const std::vector<Term> &
     terms();
-
-    /** Their names and values. */
-    std::vector<std::pair<std::string, double>>
-    entries() const;
 
     double work_of_body        = 0.; // on the soil, prescribed nodes included
     double work_on_water       = 0.; // of the body; not a part of the balance

@@ -96,11 +96,6 @@ namespace CaissonMPM
     {
       return conductances_;
     }
-    const std::vector<double> &
-    conductances() const
-    {
-      return conductances_;
-    }
 
     /** Solve for @p p, which is the first guess. The residual becomes smaller
      * than @p accuracy times that of the guess; throws RunFailure where it does

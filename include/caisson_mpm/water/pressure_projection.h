@@ -98,11 +98,6 @@ namespace CaissonMPM
                       const std::vector<Kernels::CornerView> &corners);
 
     /** The pressure, at CellPressureSolver::place(). Units: Pa. */
-    const CellData &
-    pressure() const
-    {
-      return pressure_;
-    }
     CellData &
     pressure()
     {
