@@ -102,36 +102,21 @@ namespace CaissonMPM::Kernels
     };
 
     template <typename Law>
-    constexpr const Entry &
-    entry_of(const int i)
-    {
-      return Law::entries[i].entry;
-    }
-
-    template <typename Law>
-    inline LawNumbers
-    numbers_of(const double *values)
-    {
-      return read_parameters<Law>(values);
-    }
-
-    template <typename Law>
-    inline void
-    set_values(Material &material, const double *values)
-    {
-      set_law<Law>(material, read_parameters<Law>(values));
-    }
-
-    template <typename Law>
     constexpr LawDescription
     describe()
     {
       return {Law::name,
               n_entries<Law>,
               Law::stiffness_varies,
-              &entry_of<Law>,
-              &numbers_of<Law>,
-              &set_values<Law>};
+              [](const int i) -> const Entry & {
+                return Law::entries[i].entry;
+              },
+              [](const double *values) -> LawNumbers {
+                return read_parameters<Law>(values);
+              },
+              [](Material &material, const double *values) {
+                set_law<Law>(material, read_parameters<Law>(values));
+              }};
     }
 
     template <int n>
