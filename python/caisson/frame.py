@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from caisson import needed
-from caisson.results import Read, ResultsError
+from caisson.curves import depth_at
+from caisson.results import Read, Results, ResultsError
 from caisson.units import unit_of
 
 Arrays = dict[str, np.ndarray]
@@ -60,7 +61,7 @@ class Frame:
         written at this time."""
         self.directory, self.index = directory, index
         self.time, self.penetration = time, penetration
-        self._files = files
+        self.files = files
 
     def __repr__(self) -> str:
         """Say which frame it is."""
@@ -69,12 +70,12 @@ class Frame:
 
     def _read(self, series: str) -> Any:
         """Return the vtkUnstructuredGrid of a series. Raises ResultsError."""
-        if series not in self._files:
+        if series not in self.files:
             raise ResultsError(
                 f"{self.directory} has no {series}_*.vtu at {self.time:.6g} s"
             )
         vtu = reader()
-        return vtu.joined([vtu.read_grid(file) for file in self._files[series]])
+        return vtu.joined([vtu.read_grid(file) for file in self.files[series]])
 
     @functools.cached_property
     def mesh(self) -> Any:
@@ -97,23 +98,23 @@ class Frame:
     def body(self) -> Any:
         """The section of the body: a vtkUnstructuredGrid of polygons; None in a run
         without a body."""
-        return self._read("body") if "body" in self._files else None
+        return self._read("body") if "body" in self.files else None
 
     @functools.cached_property
-    def cell_data(self) -> Arrays:
+    def cell_data(self) -> Read:
         """The fields of the cells by name: [n_cells], and [n_cells, 6] of stress, as in
         point_data; nan in a cell without points. The arrays are those of mesh, so that
         what is written to one is in the other."""
         found = reader().named_arrays(self.mesh.GetCellData())
-        return Read(self._files["grid"][0], found)
+        return Read(self.files["grid"][0], found)
 
     @functools.cached_property
-    def point_data(self) -> Arrays:
+    def point_data(self) -> Read:
         """The fields of the material points by name: [n_points], [n_points, 3] of
         vectors, r, z and 0, and [n_points, 6] of stress, whose components are rr, zz,
         tt, rz, 0 and 0. The arrays are those of points."""
         found = reader().named_arrays(self.points.GetPointData())
-        return Read(self._files["points"][0], found)
+        return Read(self.files["points"][0], found)
 
     @functools.cached_property
     def corners(self) -> np.ndarray:
@@ -130,6 +131,19 @@ class Frame:
     def units(self) -> dict[str, str]:
         """The units of the fields of cells and points by name, "1" of numbers."""
         return {name: unit_of(name) for name in [*self.cell_data, *self.point_data]}
+
+
+def frames_of(run: Results) -> list[Frame]:
+    """Return all frames of a run in their order."""
+    series = {name: dict(run.frames(name)) for name in ("grid", "points", "body")}
+    times = sorted({time for files in series.values() for time in files})
+    found = []
+    for index, time in enumerate(times):
+        files = {name: at[time] for name, at in series.items() if time in at}
+        is_moved = "penetration_m" in run.history
+        depth = depth_at(time, run.history) if is_moved else np.nan
+        found.append(Frame(run.directory, index, time, depth, files))
+    return found
 
 
 def choose(

@@ -12,12 +12,8 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from caisson.results import Read, ResultsError
-from caisson.units import split
+from caisson.results import ResultsError
 from caisson import disk
-
-TENSOR = ("rr", "zz", "tt", "rz")  # components before those that are 0
-
 
 BROKEN = "the frame is broken: {} {}. Take another frame, or run the scene again"
 COUNTS = ("NumberOfPoints", "NumberOfCells", "NumberOfTuples")
@@ -81,15 +77,6 @@ def named_arrays(data: Any) -> dict[str, np.ndarray]:
     }
 
 
-def arrays_of(data: Any) -> dict[str, np.ndarray]:
-    """Return the arrays of point or cell data by the names of their quantities, as
-    observations have them: the components of stress_Pa are stress_rr and so on."""
-    found = {split(name)[0]: values for name, values in named_arrays(data).items()}
-    for i, component in enumerate(TENSOR if "stress" in found else ()):
-        found[f"stress_{component}"] = found["stress"][:, i]
-    return found
-
-
 def positions_of(grid: Any) -> np.ndarray:
     """Return r and z of the points of a grid (m): [n, 2]."""
     return vtk_to_numpy(grid.GetPoints().GetData())[:, :2].astype(float)
@@ -102,22 +89,3 @@ def corners_of(grid: Any) -> np.ndarray:
     corners = positions_of(grid)[corner]
     order = np.lexsort((corners[..., 1], corners[..., 0]))
     return np.take_along_axis(corners, order[:, [0, 2, 3, 1], np.newaxis], 1)
-
-
-@disk.reads
-def read_points(files: Sequence[Path]) -> dict[str, np.ndarray]:
-    """Return the fields of all material points, [n] or [n, components]; "position"
-    [n, 2] (m) is among them. Raises OSError where there is no point."""
-    grid = joined([read_grid(file) for file in files])
-    if grid.GetNumberOfPoints() == 0:
-        raise OSError(f"no material points can be read from {files[0]}")
-    more = {"position": positions_of(grid)}
-    return Read(files[0], arrays_of(grid.GetPointData()) | more)
-
-
-@disk.reads
-def read_cells(files: Sequence[Path]) -> dict[str, np.ndarray]:
-    """Return the fields of the cells of the background grid, [n] or [n, components],
-    and their "corners" [n, 4, 2] as of corners_of()."""
-    grid = joined([read_grid(file) for file in files])
-    return Read(files[0], arrays_of(grid.GetCellData()) | {"corners": corners_of(grid)})

@@ -17,20 +17,14 @@ from program import FAILURE, SUCCESS, Entries, ProgramTest, history, summary
 from caisson import plot
 from caisson.paths import ROOT
 from caisson.plot.cells import cell_of
-from caisson.vtu import (
-    corners_of,
-    named_arrays,
-    positions_of,
-    read_cells,
-    read_grid,
-    read_points,
-)
+from caisson.vtu import corners_of, named_arrays, positions_of, read_grid
 from caisson.results import Results
 
 Arrays = dict[str, np.ndarray]
 CELLS = {"material_id", "zone", "material_points"}
 RATIO = "vertical_stress_over_stress_at_rest"
-STRESS = {"stress_Pa", "vertical_effective_stress_kPa", RATIO, "layer"}
+VERTICAL = "vertical_effective_stress_kPa"
+STRESS = {"stress_Pa", VERTICAL, RATIO, "layer"}
 POINTS = STRESS | {
     *("id", "velocity_m_s", "displacement_m", "mean_stress_Pa", "deviator_Pa"),
     *("plastic_deviatoric", "plastic_volumetric", "material", "void_ratio"),
@@ -60,7 +54,7 @@ def files(path: Path, series: str) -> list[Path]:
 
 def area(file: Path) -> float:
     """Return the area of all cells of a file (m2)."""
-    x, y = np.moveaxis(read_cells([file])["corners"].astype(float), -1, 0)
+    x, y = np.moveaxis(corners_of(read_grid(file)), -1, 0)
     twice = x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)
     return float(np.abs(twice.sum(axis=1)).sum() / 2)
 
@@ -116,20 +110,21 @@ class Fields(FramesTest):
         """They are the means of the points by volume, and not a number where no
         point is."""
         path = self.frames_of("jack_refined", {"Time/End penetration": 0.6})
-        points = read_points([files(path, "points")[-1]])
+        position, points = read(files(path, "points")[-1])
         file = files(path, "grid")[-1]
-        cells = read_cells([file])
-        corners, n = cells["corners"], cells["material_points"].astype(int)
-        cell = cell_of(points["position"], corners)
+        corners, cells = corners_of(read_grid(file)), read(file)[1]
+        n = cells["material_points"].astype(int)
+        cell = cell_of(position, corners)
         # in single precision a point at a side may lie in the next cell
         sure = (np.bincount(cell, minlength=len(corners)) == n) & (n > 0)
         self.assertGreater(sure.sum(), 0.95 * (n > 0).sum())
-        volume = np.bincount(cell, points["whole_volume"], len(corners))[sure]
-        stresses = [f"stress_{component}" for component in ("rr", "zz", "tt", "rz")]
-        for name in [*stresses, "void_ratio", "vertical_effective_stress"]:
-            of_points, found = points[name], cells[name]
+        volume = np.bincount(cell, points["whole_volume_m3"], len(corners))[sure]
+        pairs = {x: (points[x], cells[x]) for x in ("void_ratio", VERTICAL)}
+        for i, name in enumerate(("rr", "zz", "tt", "rz")):
+            pairs[name] = points["stress_Pa"][:, i], cells["stress_Pa"][:, i]
+        for name, (of_points, found) in pairs.items():
             np.testing.assert_array_equal(np.isnan(found), n == 0, name)
-            weighted = points["whole_volume"] * of_points
+            weighted = points["whole_volume_m3"] * of_points
             expected = np.bincount(cell, weighted, len(corners))[sure] / volume
             error = np.abs(found[sure] - expected).max()
             self.assertLess(error, 2e-6 * np.abs(of_points).max(), name)
@@ -181,12 +176,12 @@ class Fields(FramesTest):
             with self.subTest(scene=name):
                 entries = {**entries, "Output/Frame interval": 0.5}
                 path = self.frames_of(name, entries, directory=name)
-                frames = [read_points([file]) for file in files(path, "points")]
+                frames = [read(file)[1] for file in files(path, "points")]
                 order = [np.argsort(frame["id"]) for frame in frames]
-                first = frames[0]["whole_volume"][order[0]].astype(float)
+                first = frames[0]["whole_volume_m3"][order[0]].astype(float)
                 n_unknown = 0
                 for frame, rank in zip(frames, order):
-                    ratio = frame["whole_volume"][rank] / first
+                    ratio = frame["whole_volume_m3"][rank] / first
                     expected = ratio / (1 - porosity) - 1
                     found = frame["void_ratio"][rank]
                     clear = (np.abs(expected) > 1e-5) & (np.abs(ratio - 2) > 1e-5)
@@ -215,10 +210,10 @@ class Fields(FramesTest):
             f"{layer}/Largest void ratio": largest,
         }
         points = files(self.frames_of("jack", entries), "points")
-        first, last = (read_points([points[i]]) for i in (0, -1))
-        volume = [f["whole_volume"][np.argsort(f["id"])] for f in (first, last)]
+        first, last = (read(points[i])[1] for i in (0, -1))
+        volume = [f["whole_volume_m3"][np.argsort(f["id"])] for f in (first, last)]
         with_gaps = volume[1].astype(float) / volume[0] / (1 - 0.4) - 1
-        pressure = -last["mean_stress"][np.argsort(last["id"])]
+        pressure = -last["mean_stress_Pa"][np.argsort(last["id"])]
         self.assertLess(with_gaps[pressure > 1].max(), largest + 1e-5)
         self.assertLess(np.nanmax(last["void_ratio"]), largest + 1e-5)
         self.assertGreater((last["void_ratio"] > 0.99 * largest).sum(), 100)
@@ -273,7 +268,7 @@ class Body(FramesTest):
         columns = [[row[key] for row in rows] for key in ("time_s", "penetration_m")]
         depths = np.interp(times, columns[0], columns[1])
         first, _ = read(files(path, "body")[0])
-        lowest = read_cells([files(path, "body")[0]])["corners"][..., 1].min()
+        lowest = corners_of(read_grid(files(path, "body")[0]))[..., 1].min()
         self.assertAlmostEqual(lowest, -0.5, delta=1e-6)
         marks = [depth for depth, _ in by_depth]
         for file, depth in zip(files(path, "body"), depths):

@@ -16,7 +16,7 @@ def cell_of(position: np.ndarray, corners: np.ndarray) -> np.ndarray:
     all cells to the left or right get -1, those above or below the last or first
     cell there.
 
-    position: [n_points, 2]; corners: [n_cells, 4, 2] as vtu.read_cells gives them.
+    position: [n_points, 2]; corners: [n_cells, 4, 2] as vtu.corners_of gives them.
     """
     result = np.full(len(position), -1)
     left, right = corners[:, 0, 0], corners[:, 1, 0]

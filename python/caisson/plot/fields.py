@@ -14,14 +14,12 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.tri import Triangulation
 
 from caisson.verdict.outcome import depth_of
-from caisson.curves import depth_at
 from caisson.plot.cells import CellMeans
 from caisson.plot.small import in_units
-from caisson.vtu import read_cells, read_points
-from caisson.results import Results, ResultsError, Table
+from caisson.results import Results, ResultsError
 from caisson import curves, disk
+from caisson import frame as recorded
 
-Series = list[tuple[float, list[Path]]]  # [(time, [files])]
 Window = tuple[float, float, float]  # radius, bottom, top (m)
 Box = tuple[float, float, float, float]  # left, right, bottom, top (m)
 Style = dict[str, Any]
@@ -33,8 +31,8 @@ PAGE = 7.2  # inches, the width of a picture: that of a page, so that 9 pt are 9
 SLENDEREST = 0.3  # width over height of a picture on one side of the axis, at least
 RIGID, NO_VALUE = "#8c8c8c", "0.88"
 CLOSEST, CLOSE = 6, 1.0  # points that show a boundary, and how close one must be (m)
-NEEDED = {"whole_volume", "stress_zz", "displacement"}  # of the fields of a point
-RATIO = "vertical_stress_over_stress_at_rest"
+NEEDED = {"whole_volume_m3", "stress_Pa", "displacement_m"}  # of a point
+RATIO, PRESSURE = "vertical_stress_over_stress_at_rest", "pore_pressure_Pa"
 
 
 def stress_in_words(scene: dict[str, Any], which: str) -> str:
@@ -47,71 +45,53 @@ def stress_in_words(scene: dict[str, Any], which: str) -> str:
     return f"{which} {'total stress $- u_0$' if all(total) else 'stress (clay: total)'}"
 
 
-def of_total_stress(points: Table, scene: dict[str, Any]) -> np.ndarray:
-    """Return which points have a total stress, and no pore pressure: [n_points]."""
-    layers = scene.get("layers") or [{}]
-    total = np.array([bool(layer.get("total_stress")) for layer in layers])
-    material = points.get("material", np.zeros(len(points["position"])))
-    return total[material.astype(int)]
-
-
 class Frame:
     """The soil and the rigid body at one recorded time."""
 
-    def __init__(
-        self, time: float, files: Sequence[Path], grids: Series, run: Results
-    ) -> None:
-        """files: of the points; grids: the series of the background grid. Raises
-        ResultsError where a field is missing."""
-        history = run.history
-        points = read_points(files)
-        nearest = min(grids, key=lambda entry: abs(entry[0] - time))
-        cells = read_cells(nearest[1])
-        missing = (NEEDED - points.keys()) | ({RATIO} - cells.keys())
-        if missing:
+    def __init__(self, found: recorded.Frame, run: Results) -> None:
+        """Raises ResultsError where a field is missing."""
+        points, cells = found.point_data, found.cell_data
+        if missing := (NEEDED - points.keys()) | ({RATIO} - cells.keys()):
             raise ResultsError(
-                f"{files[0]} has no field {', '.join(sorted(missing))}: it is of"
+                f"{points.path} has no field {', '.join(sorted(missing))}: it is of"
                 " another version of the program"
             )
-        self.soil = points
-        if "pore_pressure" in points:  # not known where the stress is total
-            unknown = of_total_stress(points, run.scene)
-            points["pore_pressure"] = np.where(unknown, np.nan, points["pore_pressure"])
-        corners, rigid = cells["corners"], cells["material_id"] == 1
-        self.body = corners[rigid]
-        self.means = CellMeans(
-            points["position"], points["whole_volume"], corners, rigid
-        )
+        self.position, self.soil, rigid = found.positions, points, cells["material_id"]
+        if PRESSURE in points:  # not known where the stress is total
+            layers = run.scene.get("layers") or [{}]
+            total = np.array([bool(layer.get("total_stress")) for layer in layers])
+            material = points.get("material", np.zeros(len(self.position)))
+            unknown = total[material.astype(int)]
+            points[PRESSURE] = np.where(unknown, np.nan, points[PRESSURE])
+        self.body = found.corners[rigid == 1]
+        volume = points["whole_volume_m3"]
+        self.means = CellMeans(self.position, volume, found.corners, rigid == 1)
         self.ratio = cells[RATIO][self.means.used].astype(float)
         self.tops = tops_of(run.scene)
-        self.time, self.shown = time, run.shown
-        self.label, self.mark = f"t = {time:.3g} s", ""
-        if curves.penetration(history) is not None:
-            depth = depth_at(time, history)
-            self.label = f"penetration {self.shown.depth(depth)}"
-            if (end := depth_of(run)) is not None and depth > end:
+        self.time, self.shown = found.time, run.shown
+        self.label, self.mark = f"t = {found.time:.3g} s", ""
+        if curves.penetration(run.history) is not None:
+            self.label = f"penetration {self.shown.depth(found.penetration)}"
+            if (end := depth_of(run)) is not None and found.penetration > end:
                 self.mark = "not feasible"
 
 
-def chosen(series: Series, history: Table, wanted: Sequence[float]) -> Series:
-    """Return the frames to draw, MOST_FRAMES at most.
+def chosen(positions: np.ndarray, wanted: Sequence[float]) -> list[int]:
+    """Return the numbers of the frames to draw, MOST_FRAMES at most.
 
-    wanted: the penetrations at which the scene asks for frames (m). Without any,
-    and where a run has not come to the last of them, frames are taken evenly. The last
-    frame is always among them.
+    positions: the penetrations of all (m), or their times; wanted: the penetrations at
+    which the scene asks for frames (m). Without any, and where a run has not come to
+    the last of them, frames are taken evenly. The last frame is always among them.
     """
-    positions = np.array([time for time, _ in series])
-    if curves.penetration(history) is not None:
-        positions = np.array([depth_at(time, history) for time in positions])
     low, high = positions.min(), positions.max()
     goals = [x for x in wanted if low - 1e-3 <= x <= high + 1e-3]
     evenly = list(np.linspace(positions[0], positions[-1], MOST_FRAMES))
     for goals in (goals if len(goals) >= max(len(wanted), 2) else evenly, evenly):
         picks = {int(np.argmin(np.abs(positions - x))) for x in goals}
-        picks.add(len(series) - 1)
+        picks.add(len(positions) - 1)
         if len(picks) <= MOST_FRAMES:
             break
-    return [series[i] for i in sorted(picks)]
+    return sorted(picks)
 
 
 def window_of(first: Frame, last: Frame, scene: dict[str, Any]) -> Window:
@@ -209,9 +189,9 @@ def draw_layers(axes: Axes, frame: Frame) -> None:
     """Draw the boundaries between layers where they are now, for all colors; not at a
     wall that has passed, which has dragged a skin of soil with it."""
     edges = np.unique(frame.means.polygons[:, :2, 0])
-    move = frame.soil["displacement"]
+    move = frame.soil["displacement_m"]
     for top in frame.tops:
-        line = boundary_now(frame.soil["position"], move, top, edges)
+        line = boundary_now(frame.position, move, top, edges)
         if len(frame.body) and frame.body[..., 1].min() < top:
             wall = frame.body[frame.body[..., 1].min(axis=1) < top][..., 0]
             skin = np.ptp(wall) if wall.min() > 0 else 0.0
@@ -311,7 +291,7 @@ def stress_of(
 ) -> tuple[list[np.ndarray], Style]:
     """Return the vertical stress of each frame in kPa, compression positive, and its
     colors."""
-    fields = [frame.means.of(-frame.soil["stress_zz"] / 1e3) for frame in frames]
+    fields = [frame.means.of(-frame.soil["stress_Pa"][:, 1] / 1e3) for frame in frames]
     highest = np.percentile(shown_values(frames, fields, window), 99)
     return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
 
@@ -383,7 +363,7 @@ def draw_tip(
     """Draw a field on a small part: a disc of its own area for every material
     point, on the means of the cells."""
     left, right, bottom, top = box
-    position, size = frame.soil["position"], np.sqrt(frame.means.area)
+    position, size = frame.position, np.sqrt(frame.means.area)
     middle, half = np.array([left + right, bottom + top]) / 2, (right - left) / 2
     shown = (np.abs(position - middle).max(axis=1) < half + size) & (size > 0)
     highest = nice_above(np.percentile(values[shown], 99.5)) if shown.any() else 1
@@ -429,7 +409,7 @@ def draw_displacement(
     """Draw the displacement of the soil, and displacement and plastic strain at the
     tip."""
     soil, box = frame.soil, tip_box(frame, window, scene)
-    moved = np.linalg.norm(soil["displacement"][:, :2], axis=1)
+    moved = np.linalg.norm(soil["displacement_m"][:, :2], axis=1)
     fields = [("displacement (m)", moved, "viridis")]
     if "plastic_deviatoric" in soil:
         label = "plastic deviatoric strain (-)"
@@ -458,19 +438,17 @@ def draw_displacement(
 
 def frames_of(run: Results) -> list[Frame]:
     """Return the frames to draw, none where their files are gone."""
-    series, grids = run.frames("points"), run.frames("grid")
-    if not series or not grids:
+    found = [f for f in recorded.frames_of(run) if {"points", "grid"} <= f.files.keys()]
+    if not found:
         print(f"plot: the frames of {run.directory} are gone, so forces only")
         return []
     wanted = run.scene.get("frame_penetrations_m") or []
-    if len(series) > 1 and not (run.scene and run.summary.get("installation")):
-        start = depth_at(series[0][0], run.history)
-        series = series[1:]  # the first one is undisturbed
-        wanted = [depth for depth in wanted if depth > start + 1e-3]
-    return [
-        Frame(time, files, grids, run)
-        for time, files in chosen(series, run.history, wanted)
-    ]
+    if len(found) > 1 and not (run.scene and run.summary.get("installation")):
+        first, *found = found  # the first one is undisturbed
+        wanted = [depth for depth in wanted if depth > first.penetration + 1e-3]
+    by_depth = curves.penetration(run.history) is not None
+    positions = np.array([f.penetration if by_depth else f.time for f in found])
+    return [Frame(found[i], run) for i in chosen(positions, wanted)]
 
 
 def draw(run: Results, frames: Sequence[Frame], window: Window) -> list[Path | None]:

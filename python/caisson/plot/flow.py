@@ -28,15 +28,8 @@ class Flow:
         flow = -means.gradients(pressure)
         no_flow = means.of(np.isnan(pressure).astype(float)) > 0
         flow[no_flow] = np.nan
-        corner = np.round(self.corners.reshape(-1, 2), 6)
-        node = np.unique(corner, axis=0, return_inverse=True)[1].ravel()
-        known = np.repeat(np.isfinite(flow).all(axis=1), 4)
-        count = np.maximum(np.bincount(node, known), 1)
-        sums = [
-            np.bincount(node, np.where(known, np.repeat(part, 4), 0)) for part in flow.T
-        ]
-        self.at_corners = (np.stack(sums, axis=-1) / count[:, None])[node]
-        self.at_corners = self.at_corners.reshape(-1, 4, 2)
+        corners = [means.at_corners(part) for part in flow.T]
+        self.at_corners = np.nan_to_num(np.stack(corners, axis=-1))
         self.at_corners[no_flow] = np.nan
 
     def heights(

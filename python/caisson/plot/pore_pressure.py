@@ -94,7 +94,7 @@ def is_flowing(
     """Return whether water flows: not where the pressure is below the least (kPa), and
     not where clay beneath the plug lets so little through that the pressure in the
     plug is the same everywhere."""
-    pressure = frame.soil["pore_pressure"]
+    pressure = frame.soil[fields.PRESSURE]
     most = np.nanmax(np.abs(pressure), initial=0)
     level = level_of(frame, window)
     if most / 1e3 <= least or np.isfinite(pressure).all():
@@ -126,9 +126,9 @@ def draw(
     run: Results, frames: Sequence[fields.Frame], window: fields.Window
 ) -> Path | None:
     """Write pore_pressure.png; return its path, None where there is no pressure."""
-    if any("pore_pressure" not in frame.soil for frame in frames):
+    if any(fields.PRESSURE not in frame.soil for frame in frames):
         return None
-    pressures = [frame.means.of(frame.soil["pore_pressure"] / 1e3) for frame in frames]
+    pressures = [frame.means.of(frame.soil[fields.PRESSURE] / 1e3) for frame in frames]
     shown = fields.shown_values(frames, pressures, window)
     if not len(shown):
         return None
@@ -136,7 +136,7 @@ def draw(
     if max(-low, high) < 1e-3:
         return None
     style = style_of(low, high)
-    found = [Flow(frame.means, frame.soil["pore_pressure"]) for frame in frames]
+    found = [Flow(frame.means, frame.soil[fields.PRESSURE]) for frame in frames]
     flows: list[bool | None] = [None] * len(frames)
     if "flow_iterations" in run.history and run.entry("Water/Level") != "undrained":
         least = LEAST * max(-style["vmin"], style["vmax"])

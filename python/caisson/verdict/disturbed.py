@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.frame import Frame
+from caisson.frame import Frame, frames_of
 from caisson.results import Results, ResultsError, Table
-from caisson.verdict.loaded import LoadedRun
 
 NEAR = 4.0  # wall thicknesses, which a zone reaches
 RATIO, VOIDS = "vertical_stress_over_stress_at_rest", "void_ratio"
@@ -79,14 +78,6 @@ def mean_in(frame: Frame, name: str, zone: Zone) -> float:
     return float(values[rows] @ volume[rows] / volume[rows].sum())
 
 
-def frames_of(run: Results, depth: float) -> tuple[Frame, Frame] | None:
-    """Return the first frame and that at a depth (m); None where there are not both."""
-    found = [
-        f for f in LoadedRun(run.directory).frames if f.penetration <= depth + 0.01
-    ]
-    return (found[0], found[-1]) if len(found) > 1 else None
-
-
 def of_frames(
     run: Results, depth: float
 ) -> tuple[dict[str, tuple[float, float]], float]:
@@ -94,13 +85,15 @@ def of_frames(
     below the tip over that at rest; nothing where frames are missing."""
     zones = zones_of(run, depth)
     try:
-        if not (pair := frames_of(run, depth)):
+        found = [f for f in frames_of(run) if f.penetration <= depth + 0.01]
+        if len(found) < 2:
             return {}, np.nan
+        first, last = found[0], found[-1]
         voids = {
-            name: (mean_in(pair[0], VOIDS, zone), mean_in(pair[1], VOIDS, zone))
+            name: (mean_in(first, VOIDS, zone), mean_in(last, VOIDS, zone))
             for name, zone in zones.items()
         }
-        below = mean_in(pair[1], RATIO, zones["below the tip"])
+        below = mean_in(last, RATIO, zones["below the tip"])
     except (ResultsError, OSError):
         return {}, np.nan
     return {

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run for those who work with its results in Python: tables with units and frames."""
 import functools
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from caisson import needed
 from caisson.disk import is_locked
-from caisson.curves import depth_at
-from caisson.frame import Frame, choose
+from caisson.frame import Frame, choose, frames_of
 from caisson.verdict import outcome
 from caisson.results import Results, ResultsError, Table
 from caisson.units import unit_of
@@ -113,20 +111,7 @@ class LoadedRun:
     def frames(self) -> list[Frame]:
         """All frames in their order. Their files are read only when a frame is asked
         for its fields."""
-        series = {name: dict(self.results.frames(name)) for name in ("grid", "points")}
-        series["body"] = dict(self.results.frames("body"))
-        times = sorted({time for files in series.values() for time in files})
-        found = []
-        for index, time in enumerate(times):
-            files = {name: at[time] for name, at in series.items() if time in at}
-            depth = self._penetration_at(time)
-            found.append(Frame(self.directory, index, time, depth, files))
-        return found
-
-    def _penetration_at(self, time: float) -> float:
-        """Return the penetration of the body at a time (m)."""
-        history = self.results.history
-        return depth_at(time, history) if "penetration_m" in history else math.nan
+        return frames_of(self.results)
 
     def frame(
         self,
