@@ -8,6 +8,7 @@ With another wall or diameter the stress on them stays, on their new areas, the 
 and the check of the wall have the new sizes, and the weight changes by the steel of the
 skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
 """
+import functools
 from collections.abc import Callable
 from math import inf, pi
 from pathlib import Path
@@ -79,9 +80,8 @@ class Planned:
         parts = [float(values[-1]) for values in list(last.forces.values())[:3]]
         total = self.required * self.sizes.area + weight
         self.forces = [total * part / sum(parts) for part in parts]
-        self._by_methods: dict[tuple[float, float], tuple[float, dict[str, float]]]
-        self._by_methods = {}
-        self.piping = self.by_methods(self.sizes)[0]
+        self.by_methods = functools.cache(self._by_methods)
+        self.piping = self.by_methods(*self.sizes[:2])[0]
         wall = limits.wall_of(run)
         self.pressures = shell.pressures_of(run, wall) if wall else {}
 
@@ -105,20 +105,17 @@ class Planned:
         line = np.polyfit(self.found.depth[rows], values[rows], 1)
         return float(np.polyval(line, self.depth))
 
-    def by_methods(self, sizes: Sizes) -> tuple[float, dict[str, float]]:
+    def _by_methods(
+        self, diameter: float, wall: float
+    ) -> tuple[float, dict[str, float]]:
         """Return the suction of piping, nan without one, and those of the plug, which
         do not depend on the weight."""
-        size = sizes.diameter, sizes.wall
-        if size in self._by_methods:
-            return self._by_methods[size]
-        new = {"diameter_m": sizes.diameter, "wall_thickness_m": sizes.wall}
         site = theory.site_of(self.run)
+        new = {"diameter_m": diameter, "wall_thickness_m": wall}
         site = site._replace(scene={**site.scene, **new})
         piping, every = suction_methods.limits_at(site, np.array([self.depth]))
         plug = {name: float(values[0]) / 1e3 for name, values in every.items()}
-        least = np.nan if piping is None else float(piping[0]) / 1e3
-        self._by_methods[size] = least, plug
-        return self._by_methods[size]
+        return np.nan if piping is None else float(piping[0]) / 1e3, plug
 
     def needs(self, sizes: Sizes) -> float:
         """Return the required suction, at least 0."""
@@ -131,7 +128,7 @@ class Planned:
 
     def allows(self, sizes: Sizes) -> dict[str, float]:
         """Return the limits of the suction, by their factors."""
-        piping, plug = self.by_methods(sizes)
+        piping, plug = self.by_methods(*sizes[:2])
         factors, same = self.found.factors, (self.there or self.found).limits
         known = {limits.PIPING: piping, **plug}
         found = {name: value / factors[name] for name, value in known.items()}

@@ -19,7 +19,7 @@ import numpy as np
 from caisson.verdict import theory
 from caisson.design import suction_installation as installation
 from caisson.design.cone import ConeMethod
-from caisson.design.houlsby_byrne import UNDISTURBED, Caisson, HoulsbyByrne
+from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
 from caisson.design.method import Forces, Method
 from caisson.design.seepage import feld, ibsen_thilsted
 
@@ -112,20 +112,6 @@ def weight_of(scene: theory.Scene) -> float:
     return float(scene[WEIGHT])
 
 
-def by_cone(
-    method: Method | None, caisson: Caisson, weight: float, h: float
-) -> list[float]:
-    """Return the suctions of both cases of a method from a cone, nan without one."""
-    if method is None:
-        return [nan, nan]
-    area = installation.plug_area(caisson)
-    critical = installation.critical_suction(caisson, h)
-    return [
-        installation.relieved_suction(method.forces(h, case), weight, area, critical)
-        for case in method.cases
-    ]
-
-
 def by_byrne(byrne: HoulsbyByrne, column: str, weight: float, h: float) -> float:
     """Return the suction (Pa) that Houlsby & Byrne require in the case of a column at
     an embedment (m), nan where none below piping suffices."""
@@ -135,18 +121,23 @@ def by_byrne(byrne: HoulsbyByrne, column: str, weight: float, h: float) -> float
 
 
 def suctions_at(
-    byrne: HoulsbyByrne, cones: Mapping[str, Method | None], weight: float, h: float
+    byrne: HoulsbyByrne, cones: Mapping[str, Method], weight: float, h: float
 ) -> dict[str, float]:
-    """Return the suctions of all methods at an embedment, in Pa."""
+    """Return the suctions of the methods at an embedment, in Pa. cones: those by cone
+    that apply."""
     ratio = byrne.permeability_ratio
     caisson, _ = byrne.by_name[UNDISTURBED]
     mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
+    critical = installation.critical_suction(caisson, h)
+    loads = weight, installation.plug_area(caisson), critical
     required = {column: by_byrne(byrne, column, weight, h) for column in CASES}
     for key, method in cones.items():
-        required |= zip(CONE_COLUMNS[key], by_cone(method, caisson, weight, h))
+        for column, case in zip(CONE_COLUMNS[key], method.cases):
+            forces = method.forces(h, case)
+            required[column] = installation.relieved_suction(forces, *loads)
     return required | {
         CRITICAL_FELD: feld(mean, h, diameter),
-        CRITICAL_SENDERS_RANDOLPH: installation.critical_suction(caisson, h),
+        CRITICAL_SENDERS_RANDOLPH: critical,
         CRITICAL_IBSEN_THILSTED: ibsen_thilsted(mean, h, diameter),
         PIPING: installation.piping_suction(caisson, h, ratio),
     }
@@ -167,16 +158,6 @@ def rests_of(
         return installation.self_weight_penetration(resistance, weight, deepest, tops)
 
     return {case: rest(case) for case in method.cases}
-
-
-def cone_method_of(
-    method: theory.Description, site: theory.Site, deepest: float
-) -> Method | None:
-    """Return a method from a cone, None where there is none."""
-    try:
-        return method.of_site(site, deepest)
-    except theory.NotApplicable:
-        return None
 
 
 def flow_above_clay(
@@ -240,16 +221,10 @@ def limits_at(
     """Return the suction of piping by Houlsby and Byrne, nan below the first clay, None
     where they have none, and those at which a plug of clay gives way, [n] (Pa) at
     embedments [n] (m): what answers_of() has of them, in less time."""
-    try:
-        byrne = theory.houlsby_byrne_of(site, float(depth.max()))
-        weight_of(site.scene)
-    except theory.NotApplicable:
-        _, piping = flow_above_clay(site, depth)
-        known = piping if np.isfinite(piping).any() else None
-        return known, theory.plug_limits(site, depth)
-    (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
-    found = [installation.piping_suction(caisson, float(h), ratio) for h in depth]
-    return np.array(found), {}
+    _, piping = flow_above_clay(site, depth)
+    known = np.isfinite(piping)
+    plug = {} if known.all() else theory.plug_limits(site, depth)
+    return (piping if known.any() else None), plug
 
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
@@ -259,9 +234,12 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
         byrne, weight = theory.houlsby_byrne_of(site, deepest), weight_of(site.scene)
     except theory.NotApplicable as reason:
         return in_clay(site, depth, str(reason))
-    cones = {m.key: cone_method_of(m, site, deepest) for m in BY_CONE}
+    cones = dict[str, Method]()
+    for method in BY_CONE:
+        with suppress(theory.NotApplicable):
+            cones[method.key] = method.of_site(site, deepest)
     rows = [suctions_at(byrne, cones, weight, float(h)) for h in depth]
-    suctions = {name: np.array([row[name] for row in rows]) for name in METHODS}
+    suctions = {x: np.array([row.get(x, nan) for row in rows]) for x in METHODS}
     known = [cone.profile for cone in cones.values() if isinstance(cone, ConeMethod)]
     assumed = known[0].assumed if known else ""
     rests = rests_of(theory.METHODS[0], site, deepest)
