@@ -196,6 +196,24 @@ class Results:
         return self.known.get("scene") or {}
 
     @property
+    def weight(self) -> float:
+        """The weight of the body in water (N), 0 where it has none."""
+        return float(self.scene.get("submerged_weight_N") or 0)
+
+    @property
+    def planned(self) -> float | None:
+        """The penetration at which the scene ends (m), None where it has none."""
+        try:
+            return float(self.entry("Time/End penetration"))
+        except ValueError:
+            return None
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether it has come to its end, neither stopped nor failed."""
+        return bool(self.known.get("status", "finished") == "finished")
+
+    @property
     def shown(self) -> Units:
         """The units in which pages and pictures show forces, stresses and lengths."""
         return units_of(self.history, self.scene)
@@ -224,11 +242,6 @@ class Results:
         if not (self.directory / "run.json").is_file() or is_locked(self.directory):
             return True
         return self.summary.get("status") == "running"
-
-    @property
-    def has_frames(self) -> bool:
-        """Whether the run has written frames for pictures and ParaView."""
-        return (self.directory / "points.pvd").is_file()
 
     def frames(self, series: str = "points") -> list[tuple[float, list[Path]]]:
         """Return [(time, [files])] of points.pvd or grid.pvd, in order; files

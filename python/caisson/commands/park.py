@@ -45,7 +45,6 @@ from caisson.disk import InputError
 from caisson.paths import RESULTS, short
 from caisson.ranks import cores
 from caisson.report import verdict
-from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.runner import Run
 from caisson.runs import COMPLETE, StudyRun
@@ -194,7 +193,7 @@ def with_numbers(row: Row, run: Results) -> Row:
     part = verdict.feasible_part(run, found, said.end)
     row = row._replace(
         feasible_to_m=said.end or float(found.depth[-1]),
-        planned_m=end_of(run) or math.nan,
+        planned_m=run.planned or math.nan,
         self_weight_penetration_m=math.nan if found.rest is None else found.rest,
     )
     if not len(part.required):

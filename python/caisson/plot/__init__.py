@@ -51,7 +51,7 @@ def _drawn(directory: Path, run: Results) -> list[Path]:
     load = directory / "wall_pressure.csv"
     pictures.append(limits.write_pressures(load, run))
     pictures.append(walls.draw(directory / "walls.png", run))
-    if run.has_frames:
+    if (directory / "points.pvd").is_file():
         frames = fields.frames_of(run)
         if frames:
             window = fields.window_of(frames[0], frames[-1], run.scene)

@@ -14,7 +14,7 @@ from caisson.plot import charts
 from caisson.plot.charts import BLUE, CAPTIONS, RED, Curve, bars, line
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results
-from caisson.template import say_rows
+from caisson.template import say, say_rows
 from caisson.verdict import suction_methods as methods, theory
 from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.outcome import depth_of
@@ -107,8 +107,10 @@ def ends_early(answers: methods.Answers, names: list[str], site: theory.Site) ->
 
 def caption(answers: methods.Answers, site: theory.Site) -> str:
     """Return what the lines of the methods mean, or why there are none."""
+    if clay := answers.in_clay:
+        return say(CAPTIONS, "in_clay", clay.name, *clay.cases)
     if not answers.suctions:
-        return answers.words or f"no design methods: {answers.why_not}"
+        return f"no design methods: {answers.why_not}"
     known, assumed = answers.suctions, theory.assumptions_of(site.scene)
     required, cones = list(methods.CASES), methods.CONE_COLUMNS.values()
     by_cone = [column for columns in cones for column in columns]

@@ -7,7 +7,6 @@ from typing import Any
 
 from caisson import template
 from caisson.report import pull
-from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.verdict import acceptance, disturbed, limits, outcome
 from caisson.verdict.installation import Installation, Rate
@@ -38,7 +37,7 @@ def rows_of(run: Results, found: Installation) -> list[list[str]]:
 
 def stop_rows(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     """Return (criterion, number, what it rests on) of the vessel."""
-    stop = acceptance.stop_of(run, found, end_of(run) or float(found.depth[-1]))
+    stop = acceptance.stop_of(run, found, run.planned or float(found.depth[-1]))
     flows = [template.say(pull.SENTENCES, "of_flow", x, 3) for x in stop.flow]
     more = outcome.depth_of(run) is not None, run.known.get("assumed", [])
     return say_rows("stop", run.shown, stop, rate.words, flows, *more, cells=3)
@@ -76,7 +75,7 @@ def factors_of(run: Results, found: Installation) -> dict[str, Any]:
 def tables_of(run: Results, found: Installation, rate: Rate) -> dict[str, Any]:
     """Return what the page shows to a certifier of a caisson that suction draws in;
     nothing of another run."""
-    if not len(found.required) or not run.scene.get("submerged_weight_N"):
+    if not len(found.required) or not run.weight:
         return {}
     heads = ["stop at", "number", "what it rests on"]
     return {

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson.table import text_of
-from caisson.report.scene import SOIL, caisson_of, end_of, is_assumed
+from caisson.report.scene import SOIL, caisson_of, is_assumed
 from caisson.evaluation import is_sealed
 from caisson.report.scene import readable, scale_of
 from caisson.results import Results
@@ -113,7 +113,7 @@ def changing(run: Results, layer: Layer, values: list[float], unit: str) -> str:
     factor, name = scale_of(values, unit)
     name = readable(name)
     line = line_of(layer, values)
-    lengths = (run.scene.get("skirt_length_m"), end_of(run))
+    lengths = (run.scene.get("skirt_length_m"), run.planned)
     deepest = max((float(x) for x in lengths if x), default=math.inf)
     deepest = min(layer.bottom or math.inf, deepest)
     if line is not None and math.isfinite(deepest):
@@ -144,18 +144,13 @@ def number_in_words(run: Results, layer: Layer, name: str, unit: str) -> str:
     return f"{text_of(known[0] / factor)}{space}{readable(written)}".rstrip()
 
 
-def drainage_of(run: Results, layer: Layer) -> str:
-    """Return how the pore water of a layer was computed."""
-    level = run.entry("Water/Level")
-    if layer.is_clay and level in ("", "drained", "seepage"):
-        return "undrained (total stress)"
-    return level
-
-
 def kind_of(run: Results, layer: Layer) -> str:
     """Return what a layer is, and how its water was computed: "sand, drained"."""
     kind = "clay" if layer.is_clay else "sand" if layer.is_sand else "soil"
-    return ", ".join(filter(None, (kind, drainage_of(run, layer))))
+    how = run.entry("Water/Level")
+    if layer.is_clay and how in ("", "drained", "seepage"):
+        how = "undrained (total stress)"
+    return f"{kind}, {how}" if how else kind
 
 
 def drainage_of_run(run: Results) -> str:
@@ -177,16 +172,15 @@ def use_of(run: Results) -> str:
     level = run.entry("Water/Level")
     if not caisson_of(run) or not level:
         return ""
-    has_weight = bool(run.scene.get("submerged_weight_N"))
-    depth = run.history["penetration_m"]
-    if is_sealed(run) or depth[-1] < depth[0]:
-        lid = "sealed lid" if is_sealed(run) else "open lid"
-        if depth[-1] < depth[0] and is_retrieval(run):
-            how = "pushed out by water"
-        else:
-            how = f"{lid}{', pulled up' if depth[-1] < depth[0] else ''}"
+    depth, is_closed = run.history["penetration_m"], is_sealed(run)
+    goes_up = depth[-1] < depth[0]
+    if goes_up and is_retrieval(run):
+        how = "pushed out by water"
+    elif is_closed or goes_up:
+        lid = "sealed lid" if is_closed else "open lid"
+        how = f"{lid}, pulled up" if goes_up else lid
     else:
-        how = "by weight and suction" if has_weight else "jacked"
+        how = "by weight and suction" if run.weight else "jacked"
     return f"{drainage_of_run(run) or level}, {how}"
 
 

@@ -14,9 +14,8 @@ from caisson.table import text_of
 from caisson.verdict import installation, outcome
 from caisson.verdict.by_hand import ByHand
 from caisson.verdict.installation import NOTHING, Installation, Rate
-from caisson.report.verdict import REST, Verdict, say, verdict_of
+from caisson.report.verdict import REST, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
-from caisson.report.scene import end_of
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
 from caisson.verdict.limits import rounded_down
@@ -33,13 +32,6 @@ def ends_of(run: Results) -> dict[str, Results]:
     return {e: member for e, member in band_of(run).items() if e != BEST}
 
 
-def outcome_of(member: Results, shown: Units, best: Verdict) -> str:
-    """Return what has become of a run, in words that follow "with low resistance"; a
-    reason only where it is not that of the best estimate."""
-    found = None if member.is_running else outcome.whole_way(member)
-    return say("outcome", shown, member, found, verdict_of(member), best.reason)
-
-
 def n_soils(run: Results) -> int:
     """Return in how many soils hand methods have looked at a scene; 0 of a run."""
     return len({x.directory for x in run.estimates.values()}) if run.by_hand else 0
@@ -48,7 +40,7 @@ def n_soils(run: Results) -> int:
 def by_hand_in_words(run: Results) -> str:
     """Return how far a caisson is feasible by hand methods, and what to plan for, where
     the run that has ended says another depth."""
-    own, planned, found = verdict_of(run).end, end_of(run), outcome.whole_way(run)
+    own, planned, found = verdict_of(run).end, run.planned, outcome.whole_way(run)
     if run.by_hand or run.is_running or not planned or not found or not found.limits:
         return ""
     depth = run.history[DEPTH]
@@ -71,7 +63,11 @@ def sentence_of(run: Results) -> str:
     uncertainty, how far hand methods go, and what low and high resistance come to."""
     if not (best := verdict_of(run)).text:
         return ""
-    ends = {e: outcome_of(x, run.shown, best) for e, x in ends_of(run).items()}
+    ends = dict[str, str]()
+    for estimate, x in ends_of(run).items():
+        found = None if x.is_running else outcome.whole_way(x)
+        how = x, found, verdict_of(x), best.reason
+        ends[estimate] = say("outcome", run.shown, *how)
     clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
     band = say("of_band", ends, n_soils(run) == 1, clay)
     end = None if run.by_hand or run.is_running else end_of_upper(run)
@@ -93,15 +89,10 @@ def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     return [[*c[:2], "; ".join(ends)] if c[0] == REST else c for c in cards]
 
 
-def has_ended(run: Results) -> bool:
-    """Return whether a run has come to its end."""
-    return run.known.get("status", "finished") == "finished"
-
-
 def end_of_upper(run: Results) -> float | None:
     """Return the depth (m) where the upper end of the required suction reaches the
     allowable one; None where it does not."""
-    band = {n: x for n, x in band_of(run).items() if n == BEST or has_ended(x)}
+    band = {n: x for n, x in band_of(run).items() if n == BEST or x.is_finished}
     found = over_depth(band, SUCTION)
     known = found and installation.installation_of(run, Rate(), found.depth)
     if not found or not known or not known.limits:

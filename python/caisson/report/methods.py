@@ -316,8 +316,7 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     its lower to its upper case: where it rests, resistance and required suction at the
     planned depth (m), or where the run has ended above, and below them the run. Empty
     without a method, or where no suction is computed."""
-    weight = float(run.scene.get(suction_methods.WEIGHT) or 0)
-    if not weight or not (found.has_suction or run.by_hand):
+    if not (weight := run.weight) or not (found.has_suction or run.by_hand):
         return {}
     shown, site, area = run.shown, theory.site_of(run), 1e3 * plug_area(run.scene)
     depth = planned if run.by_hand else min(planned, float(found.depth[-1]))

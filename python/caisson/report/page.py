@@ -112,22 +112,17 @@ def what_was_computed(run: Results, found: Installation | None) -> dict[str, Any
     }
 
 
-def has_ended_early(run: Results) -> bool:
-    """Return whether a run was stopped, or failed, before its end."""
-    if run.is_running:
-        return not is_locked(run.directory)
-    ended = run.summary.get("failure") or run.scene.get("end_reason")
-    return bool(ended) or run.summary.get("status", "finished") != "finished"
-
-
 def incomplete_of(run: Results) -> str:
     """Return what a run that did not come to its end is good for; nothing of others,
     and where suction ends before it."""
     depth = run.history.get("penetration_m")
-    if not has_ended_early(run) or depth is None or verdict.verdict_of(run).end:
-        return ""
     failed = not run.is_running and run.summary.get("failure")
-    how = run.shown, depth.max(), scene.end_of(run), failed
+    is_early = failed or run.scene.get("end_reason") or not run.is_finished
+    if run.is_running:
+        is_early = not is_locked(run.directory)
+    if not is_early or depth is None or verdict.verdict_of(run).end:
+        return ""
+    how = run.shown, depth.max(), run.planned, failed
     return say(SENTENCES, "incomplete", *how)
 
 
@@ -163,19 +158,13 @@ def render(
     )
 
 
-def is_installation(run: Results) -> bool:
-    """Return whether a scene pushes its body down from the mudline: it does not follow
-    an installation, as a pull and a retrieval do, and does not move up."""
-    moves_up = run.entry("Rigid body/Velocity").strip().startswith("-")
-    return not run.entry("Installation/Directory").strip() and not moves_up
-
-
 def not_begun(run: Results) -> Results:
     """Return a run or, as long as it has not begun its way down, what hand methods say
     of its scene, of an installation."""
     if run.by_hand or not run.is_running or not run.scene or outcome.whole_way(run):
         return run
-    if not is_installation(run):
+    moves_up = run.entry("Rigid body/Velocity").strip().startswith("-")
+    if moves_up or run.entry("Installation/Directory").strip():  # a pull, a retrieval
         return run
     try:
         hand = by_hand.band_of({BEST: by_hand.ByHand(run.directory)})
@@ -253,7 +242,7 @@ def of_installation(
     run: Results, found: Installation, end: float | None, rate: Rate
 ) -> dict[str, Any]:
     """Return what the page says of the installation; end: where suction ends (m)."""
-    planned = scene.end_of(run) or float(found.depth[-1])
+    planned = run.planned or float(found.depth[-1])
     sources = limits.sources_of(run, found.limits)
     rings = limits.rings_counted(run, found.depth)
     site = theory.site_of(run)

@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 
 from caisson import disk, phases
 from caisson.disk import InputError
@@ -31,21 +30,17 @@ def asked_of(run: Results) -> str:
     return disk.read_text(path, InputError) if path.is_file() else run.entry(ENTRY)
 
 
-def pressures_of(run: Results) -> list[float]:
-    """Return the smallest and the largest excess pressure at the end of a run (Pa)."""
-    return [float(run.history.get(name, np.zeros(1))[-1]) for name in PRESSURES]
-
-
 def said_of(run: Results, before: Results, is_rest: bool) -> str:
     """Return what a phase came to, after another run; of one that failed, goes on, or
     was stopped, only that."""
     if failure := run.known.get("failure"):
         return say(SENTENCES, "of_phase", f"failed: {failure}")
-    if run.is_running or run.known.get("status") != "finished":
+    if run.is_running or not run.is_finished:
         return say(SENTENCES, "of_phase", "")
     if not is_rest:
         return say(SENTENCES, "of_phase", verdict.verdict_of(run).text or "finished")
-    return say(SENTENCES, "rested", run.shown, *map(pressures_of, (before, run)))
+    ends = [[x.history.get(p, [0.0])[-1] for p in PRESSURES] for x in (before, run)]
+    return say(SENTENCES, "rested", run.shown, *ends)
 
 
 def row_of(

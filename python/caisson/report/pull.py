@@ -42,12 +42,11 @@ def sentence_of(run: Results) -> str:
     """Return the largest pull and what fails in a sentence; nothing without a pull."""
     if not (most := largest_pull(run)):
         return ""
-    weight = run.scene.get("submerged_weight_N")
     if found := retrieval_of(run):
         begin = float(run.history[DEPTH].max())
-        return say(SENTENCES, "retrieved", run.shown, found, begin, weight)
+        return say(SENTENCES, "retrieved", run.shown, found, begin, run.weight)
     how = most.get("mechanism") or capacity_in_words(most)
-    return say(SENTENCES, "pulled", run.shown, most, how, weight)
+    return say(SENTENCES, "pulled", run.shown, most, how, run.weight)
 
 
 def retrieval_table(found: Retrieval, shown: Units) -> dict[str, Any]:

@@ -22,7 +22,6 @@ from caisson.units import GRAVITY
 from caisson.verdict import limits, suction_methods, theory
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.installation import installation_of
-from caisson.report.scene import end_of
 from caisson.results import Results
 from caisson.template import say, say_rows
 
@@ -68,10 +67,8 @@ class Planned:
         """found: what is feasible, whose trend goes on to the depth."""
         self.run, self.found, self.depth = run, found, depth
         scene = run.scene
-        weight = float(scene.get("submerged_weight_N") or 0) / 1e3
-        self.sizes = Sizes(
-            float(scene["diameter_m"]), float(scene["wall_thickness_m"]), weight
-        )
+        size, weight = float(scene["diameter_m"]), run.weight / 1e3
+        self.sizes = Sizes(size, float(scene["wall_thickness_m"]), weight)
         # hand methods know the depth itself
         at = np.array([depth])
         self.there = installation_of(run, Rate(), at) if run.by_hand else None
@@ -261,7 +258,7 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
     """Return the caisson at a depth (m), or why nothing is known of it."""
     scene = run.scene
     sizes = scene.get("diameter_m"), scene.get("wall_thickness_m")
-    if None in sizes or not scene.get("submerged_weight_N"):
+    if None in sizes or not run.weight:
         return "sizes and weight are not known"
     planned = Planned(run, found, target)
     if not np.isfinite(planned.required):
@@ -288,7 +285,7 @@ def sentence_of(run: Results, found: Installation, target: float) -> str:
 def table_of(run: Results, found: Installation, end: float | None) -> dict[str, Any]:
     """Return heads and rows of remedies for a caisson that goes in to an end (m) only;
     found: down to there. Empty where it goes in, or the planned depth is not known."""
-    target, shown = end_of(run), found.shown
+    target, shown = run.planned, found.shown
     if end is None or target is None or target <= end:
         return {}
     planned, trend = planned_of(run, found, target), None

@@ -99,14 +99,6 @@ def is_assumed(run: Results, entry: str) -> bool:
     return entry in run.summary.get("assumed", [])
 
 
-def end_of(run: Results) -> float | None:
-    """Return the penetration at which the scene ends (m), None where it has none."""
-    try:
-        return float(run.entry("Time/End penetration"))
-    except ValueError:
-        return None
-
-
 def caisson_of(run: Results) -> list[Item]:
     """Return the numbers of the caisson; nothing for other bodies."""
     scene = run.scene
@@ -115,7 +107,7 @@ def caisson_of(run: Results) -> list[Item]:
     plug = plug_area(scene)
     tip = math.pi / 4 * float(scene["diameter_m"]) ** 2 - plug
     by_layer = any(WALLS & set(layer) for layer in scene.get("layers", []))
-    how = run, plug, tip, by_layer, end_of(run), is_sealed(run), in_units
+    how = run, plug, tip, by_layer, run.planned, is_sealed(run), in_units
     path = Path(__file__).with_name("scene.jinja")
     return [
         Item(name, value, any(is_assumed(run, x) for x in entries.split(", ")))

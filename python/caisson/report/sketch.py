@@ -2,31 +2,15 @@
 """A section through caisson and ground, to scale and with dimensions, as SVG."""
 import html
 import math
-from typing import NamedTuple
 
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
-from caisson.report.scene import BODY, end_of
+from caisson.report.scene import BODY
 
 LETTER = 7.2  # pixels, the width of a letter
 WIDTH, MARGIN = 560.0, 52.0  # of the drawing, and of each side (pixels)
 TALL, LEAST_BAND = 420.0, 15.0  # largest height, lowest layer with a text (pixels)
 LEAST_WALL = 1.6  # pixels
-
-
-class Tip(NamedTuple):
-    """The lowest point of a wall, and the slope of the faces that meet there."""
-
-    depth: float  # m
-    slope: float  # tangent of their angle to the horizontal
-
-
-def tip_of(run: Results, depth: float) -> Tip:
-    """Return the tip at a depth (m); that of older files is flat."""
-    if run.entry(f"{BODY}/Tip") != "triangular":
-        return Tip(depth, 0.0)
-    angle = float(run.entry(f"{BODY}/Tip angle") or 45)
-    return Tip(depth, math.tan(math.radians(angle)))
 
 
 class Drawing:
@@ -65,10 +49,13 @@ class Drawing:
         width, height = self.x(right) - x, self.y(low) - y
         self.add("rect", class_=kind, x=x, y=y, width=width, height=height)
 
-    def wall(self, left: float, top: float, width: float, tip: Tip) -> None:
-        """Add a wall with its tip, from left and down to the depth of the tip."""
-        shoulder, right = tip.depth - tip.slope * width / 2, left + width
-        lowest = [(left + width / 2, tip.depth)] if tip.slope else []
+    def wall(
+        self, left: float, top: float, width: float, depth: float, slope: float
+    ) -> None:
+        """Add a wall from left, down to the depth of its tip (m), where faces of a
+        slope (tangent of their angle to the horizontal) meet, 0 of a flat one."""
+        shoulder, right = depth - slope * width / 2, left + width
+        lowest = [(left + width / 2, depth)] if slope else []
         corners = [(left, top), (left, shoulder), *lowest, (right, shoulder)]
         points = [
             f"{self.x(r):.1f},{self.y(z):.1f}" for r, z in [*corners, (right, top)]
@@ -163,6 +150,9 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
     steps = [(0.0, at_tip)]
     for place, width in run.parts_of_wall("wall_step", "above_tip", "thickness"):
         steps.append((place, max(width, thinnest)))
+    angle = float(run.entry(f"{BODY}/Tip angle") or 45)
+    is_flat = run.entry(f"{BODY}/Tip") != "triangular"  # that of older files is
+    slope = 0.0 if is_flat else math.tan(math.radians(angle))
     is_flush_inside = run.entry(f"{BODY}/Flush face") == "inner"
 
     def faces(thickness: float) -> tuple[float, float]:
@@ -175,7 +165,7 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
         inner, right = faces(thickness)
         for left in (-right, inner):
             if place == 0:
-                drawing.wall(left, top, thickness, tip_of(run, depth))
+                drawing.wall(left, top, thickness, depth, slope)
             else:
                 drawing.box("steel", left, top, left + thickness, depth - place)
     for place, width, height in run.parts_of_wall(
@@ -197,7 +187,7 @@ def of_run(run: Results, depth: float, rest: float | None) -> str:
     outer, wall = float(scene["diameter_m"]), float(scene["wall_thickness_m"])
     length = float(scene.get("skirt_length_m") or depth)
     radius, lid = outer / 2, depth - length
-    planned = end_of(run) or depth
+    planned = run.planned or depth
     bottom = max(depth, planned, 0.1 * length) * 1.3
     drawing = Drawing(0.95 * outer, min(lid, 0.0) - 0.06 * length, bottom)
     draw_ground(drawing, run, radius)

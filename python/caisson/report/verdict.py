@@ -16,7 +16,6 @@ from caisson import disk, evaluation, template
 from caisson.band import band_of
 from caisson.evaluation import DEPTH, sinks_on
 from caisson.report import pull, remedies
-from caisson.report.scene import end_of as planned_end
 from caisson.results import Results
 from caisson.verdict import outcome, retrieval, run_review, theory, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
@@ -60,7 +59,7 @@ def of_suction(
     run: Results, found: Installation, ended: tuple[float, str] | None
 ) -> str:
     """Return the verdict on a caisson with a weight, to a depth (m), by a reason."""
-    planned = planned_end(run)
+    planned = run.planned
     if ended is not None:
         gradient = by_gradient(run) if ended[1] == REASONS[PIPING] else None
         more = remedies.sentence_of(run, found, planned or float(found.depth[-1]))
@@ -87,7 +86,7 @@ def said_of(run: Results) -> Verdict:
     found = outcome.whole_way(run)
     if found is None:
         return Verdict("")
-    if not len(found.required) or not run.scene.get("submerged_weight_N"):
+    if not len(found.required) or not run.weight:
         is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
         return Verdict(say("pushed", found, "Jacked" if is_jacked else "Sunk"))
     ended = outcome.end_of(run)
@@ -129,11 +128,10 @@ def cards_of(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     """Return (name, value, remark) of what matters beside the verdict."""
     if not len(found.required):
         return []
-    weight = float(run.scene.get("submerged_weight_N") or 0) / 1e3
     rest = "" if found.rest is None else rest_in_words(run, found.rest)
     row = largest_flow(found) if len(found.flow) else None
     length = float(run.scene.get("skirt_length_m") or 0)
-    what = weight, rest, ways_down(run), row, rate.words, length, run
+    what = run.weight / 1e3, rest, ways_down(run), row, rate.words, length, run
     return template.say_rows(pull.SENTENCES, "cards", found, *what, cells=3)
 
 

@@ -36,11 +36,6 @@ def given(run: Results, name: str) -> float:
     return float(run.entry(f"Design/{name}") or 0)
 
 
-def weight_of(run: Results) -> float:
-    """Return the weight of the caisson in water."""
-    return float(run.scene.get("submerged_weight_N") or 0) / 1e3
-
-
 def factor_of(run: Results, depth: float) -> float:
     """Return a, the pressure at the tip over the suction, by Houlsby & Byrne. Raises
     NotApplicable."""
@@ -118,7 +113,7 @@ def grout_of(run: Results, found: Installation) -> Grout | None:
         outside = sealing.grout_pressure(float(inside), factor_of(run, depth))
         piping = outside / found.factors[limits.PIPING] / 1e3
     ends = sealing.gaps(gap, inner, tilt)
-    volume, lifts = area * max(gap, 0.0), weight_of(run) / area
+    volume, lifts = area * max(gap, 0.0), run.weight / 1e3 / area
     return Grout(depth, volume, gap, ends, tilt, piping, lifts)
 
 
@@ -164,7 +159,7 @@ def resistance_at(run: Results, at: np.ndarray) -> np.ndarray:
     to overcome, with what seepage takes from it (N)."""
     needs = at_depths(run, at)[SUCTION]
     way = run.history[DEPTH]
-    found = 1e3 * weight_of(run) + plug_area(run.scene) * needs
+    found = run.weight + plug_area(run.scene) * needs
     return np.where((at >= way.min()) & (at <= way.max() + 1e-6), found, nan)
 
 
@@ -217,7 +212,7 @@ def level_of(run: Results, found: Installation) -> Level | None:
     if number not in buckets.NUMBERS or lacking(run) or len(at) < 2:
         return None
     force, ends = resistance_at(run, at), shares_at(run, at, number)
-    slope, weight = np.gradient(force, at), 1e3 * weight_of(run)
+    slope, weight = np.gradient(force, at), run.weight
     loads, distance = (weight, plug_area(run.scene)), given(run, DISTANCE)
     known = np.isfinite(ends).all(axis=(1, 2)) & (force > weight)
     if not (rows := np.flatnonzero(known)).size:
@@ -279,7 +274,7 @@ def load_of(run: Results, found: Installation) -> Load | None:
         along.append((name, share * depth, suction + float(change)))
     at = np.unique(pressures[DEPTH])
     around = [*at[at <= depth][-1:], *at[at > depth][:1]]
-    axial = weight_of(run) + suction * wall.area_inside
+    axial = run.weight / 1e3 + suction * wall.area_inside
     most = float(found.required[largest]), float(found.depth[largest])
     return Load(depth, suction, axial, [float(h) for h in around], along, most)
 

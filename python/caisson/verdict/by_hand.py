@@ -151,15 +151,9 @@ class ByHand(Results):
     @functools.cached_property
     def end(self) -> float:
         """The planned penetration (m)."""
-        try:
-            return float(self.entry("Time/End penetration"))
-        except ValueError as error:
-            raise ResultsError("the scene has no Time/End penetration") from error
-
-    @functools.cached_property
-    def weight(self) -> float:
-        """The weight in water (N), 0 of a body that is jacked."""
-        return float(self.scene.get(suction_methods.WEIGHT) or 0)
+        if self.planned is None:
+            raise ResultsError("the scene has no Time/End penetration")
+        return self.planned
 
     @functools.cached_property
     def sand_end(self) -> float:

@@ -178,9 +178,8 @@ def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
     if (wall := wall_of(run)) is None:
         return np.full(len(at), np.nan)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, at)
-    weight = float(run.scene.get("submerged_weight_N") or 0)
     found = [
-        shell.limit_suction(wall, float(h), weight, float(p), factor)
+        shell.limit_suction(wall, float(h), run.weight, float(p), factor)
         for h, p in zip(at, more)
     ]
     return np.array(found) / 1e3
@@ -194,10 +193,10 @@ def rings_counted(run: Results, at: np.ndarray) -> tuple[int, int]:
     if not wall or not within:
         return 0, 0
     factor = factors_of(run)[SHELL]
-    weight = float(run.scene.get("submerged_weight_N") or 0)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, within)
     pairs = [
-        shell.limits_at(wall, h, weight, float(p), factor) for h, p in zip(within, more)
+        shell.limits_at(wall, h, run.weight, float(p), factor)
+        for h, p in zip(within, more)
     ]
     return len(within), sum(plain < with_rings for plain, with_rings in pairs)
 

@@ -79,7 +79,7 @@ def whole_way(run: Results, rate: Rate = Rate()) -> Installation | None:
 def end_of(run: Results) -> tuple[float, str] | None:
     """Return the depth (m) where suction ends in a run, and why; None where it does
     not, and of a body without a weight or on its way out."""
-    if is_pull(run) or not run.scene.get("submerged_weight_N"):
+    if is_pull(run) or not run.weight:
         return None
     found = whole_way(run)
     return end_of_suction(run, found) if found and len(found.required) else None

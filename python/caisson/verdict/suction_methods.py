@@ -70,18 +70,6 @@ class Answers:
     plug: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
-    def words(self) -> str:
-        """Return what the lines in ground with clay are."""
-        if self.in_clay is None:
-            return ""
-        low, high = self.in_clay.cases
-        return (
-            f"{self.in_clay.name}: (jacking force - weight) / area inside,"
-            f" {low} dashed, {high} dotted; in sand above the first clay, flow takes"
-            " from it what Senders & Randolph say"
-        )
-
-    @property
     def required(self) -> list[theory.Beside]:
         """The required suctions of the methods that have any."""
         return [method for method in self.every if method.is_known]

@@ -21,7 +21,7 @@ from caisson.design import plug_stability, senders_randolph, unified
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
-from caisson.design.method import Forces, Method
+from caisson.design.method import Method
 
 Scene = Mapping[str, Any]
 Of = TypeVar("Of")
@@ -145,10 +145,15 @@ def skirt_of(site: Site) -> Skirt:
         raise NotApplicable("there is no run.json, which a run leaves at its end")
     if not is_caisson(scene):
         raise NotApplicable("the body is no caisson")
-    return Skirt(
-        *(float(scene[name]) for name in SIZES),
-        *(wall_friction(scene, side) for side in ("inner", "outer")),
-    )
+    both, frictions = scene.get("wall_friction_angle_deg"), list[float]()
+    for side in ("inner", "outer"):
+        angle = scene.get(f"{side}_wall_friction_angle_deg", both)
+        if angle is None:
+            raise NotApplicable(
+                f"run.json does not have the friction of the {side} wall"
+            )
+        frictions.append(float(angle))
+    return Skirt(*(float(scene[name]) for name in SIZES), *frictions)
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
@@ -159,15 +164,6 @@ def assumptions_of(scene: Scene) -> Assumptions:
     return Assumptions(
         **{k: tuple(v) if isinstance(v, list) else v for k, v in known.items()}
     )
-
-
-def wall_friction(scene: Scene, side: str) -> float:
-    """Return the friction angle of a wall in degrees."""
-    both = scene.get("wall_friction_angle_deg")
-    value = scene.get(f"{side}_wall_friction_angle_deg", both)
-    if value is None:
-        raise NotApplicable(f"run.json does not have the friction of the {side} wall")
-    return float(value)
 
 
 def soil_of(entry: Scene, number: int) -> str:
@@ -444,22 +440,17 @@ def assumptions_in_words(scene: Scene) -> str:
     return say(SENTENCES, "assumptions", *assumed[:2], assumed.load_spread)
 
 
-def by_part(rows: list[Forces]) -> dict[str, np.ndarray]:
-    """Return the parts of forces, [n] each."""
-    columns = [*zip(*rows), [row.total for row in rows]]
-    return {part: np.array(column) for part, column in zip(PARTS, columns)}
-
-
 def answer_of(method: Description, site: Site, depth: np.ndarray) -> Answer:
     """Return what a method says at embedments [n] (m)."""
     try:
         known = method.of_site(site, float(depth.max()))
     except NotApplicable as reason:
         return Answer(method, depth, why_not=str(reason))
-    forces = {
-        case: by_part([known.forces(float(h), case) for h in depth])
-        for case in method.all_cases
-    }
+    forces = dict[str, dict[str, np.ndarray]]()
+    for case in method.all_cases:
+        rows = [known.forces(float(h), case) for h in depth]
+        columns = np.array([[*row, row.total] for row in rows]).T
+        forces[case] = dict(zip(PARTS, columns))
     in_sand = IN_SAND if isinstance(known, layered.Layered) else ""
     by_cone = ConeMethod, layered.Layered
     assumed = known.profile.assumed if isinstance(known, by_cone) else ""

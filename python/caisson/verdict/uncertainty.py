@@ -136,8 +136,7 @@ def of_share(
     suction, which bears the resistance less the weight, more than that share of it."""
     force = values
     if column == SUCTION:
-        weight = float(run.scene.get("submerged_weight_N") or 0)
-        force = values + weight / plug_area(run.scene)
+        force = values + run.weight / plug_area(run.scene)
     return Part(name, share * force, share * force, source, share)
 
 

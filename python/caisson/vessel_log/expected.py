@@ -16,7 +16,6 @@ from caisson.band import BEST, ESTIMATES, HIGH, LOW
 from caisson.verdict import suction_methods, theory
 from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.installation import plug_area
-from caisson.report.scene import end_of
 from caisson.results import Results, ResultsError
 
 ROWS = 200  # of the grid
@@ -209,6 +208,6 @@ def expected_of(run: Results) -> Expected:
         float(run.scene["submerged_weight_N"]) / 1e3,
         plug_area(run.scene),
         source,
-        end_of(run) or end,
+        run.planned or end,
         extrapolated,
     )
