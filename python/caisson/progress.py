@@ -32,11 +32,6 @@ def span(least: float, most: float) -> str:
     return last if first == last else f"{first.removesuffix(unit)} to {last}"
 
 
-def is_terminal(stream: TextIO) -> bool:
-    """Return whether a line on the stream can be written over."""
-    return stream.isatty() and os.environ.get("TERM", "dumb") != "dumb"
-
-
 class Progress:
     """What is done of some runs, drawn each INTERVAL on a terminal, and said elsewhere
     after each STEP.
@@ -57,7 +52,8 @@ class Progress:
         mean = sum(known) / len(known)
         self.expected = [x if x > 0 else mean for x in durations]
         self.stream = stream or sys.stderr
-        self.has_bar = is_terminal(self.stream)
+        is_dumb = os.environ.get("TERM", "dumb") == "dumb"
+        self.has_bar = self.stream.isatty() and not is_dumb
         self.share_of = share_of
         self.said = 0.0, time.monotonic()  # share and time of the last line
         self.begin = time.monotonic()

@@ -22,7 +22,7 @@ from caisson import disk
 from caisson.needed import DASK, sentence
 from caisson.progress import Progress, span
 from caisson.ranks import Size, cores, plan
-from caisson.results import Results, ResultsError
+from caisson.results import Results
 from caisson.runner import Run, RunError, Status
 
 # runs for each core above which several ranks gain nothing that matters, and the
@@ -116,10 +116,7 @@ class StudyRun:
     def ranks_before(self) -> int | None:
         """The ranks of the run that has left the checkpoint: with others, the soil
         beneath a wall may slip to the other side."""
-        try:
-            ranks = self.results.known.get("ranks")
-        except ResultsError:
-            return None
+        ranks = self.run.left("run.json").get("ranks")
         return ranks if isinstance(ranks, int) else None
 
     def query_size(self) -> None:

@@ -24,12 +24,13 @@ AT_ONCE = 4000  # places
 
 @dataclass
 class Neighbors:
-    """Points near some places: numbers and weights, [n, k]; a weight of 0 is no
-    neighbor. layer: that of the nearest point, [n]."""
+    """Points near some places: numbers and weights, [n, k], the latter with the sum 1;
+    a weight of 0 is no neighbor. step: from the places to them, [n, k, 2] (m); layer:
+    that of the nearest point, [n]."""
 
-    places: np.ndarray
     index: np.ndarray
     weight: np.ndarray
+    step: np.ndarray
     layer: np.ndarray
 
 
@@ -70,28 +71,28 @@ def neighbors(state: State, tree: cKDTree, places: np.ndarray, n: int) -> Neighb
     )
     support = 1.01 * np.max(np.where(counts, distance, 0), axis=1, keepdims=True)
     kernel = np.maximum(1 - (distance / support) ** 2, 0) ** 2 * counts
-    layer = state.layer[index[:, 0]]
-    return Neighbors(places, index, kernel * state.volume[index], layer)
+    weight = kernel * state.volume[index]
+    weight = weight / weight.sum(axis=1, keepdims=True)
+    step = state.position[index] - places[:, np.newaxis]
+    return Neighbors(index, weight, step, state.layer[index[:, 0]])
 
 
-def is_poor(state: State, near: Neighbors) -> np.ndarray:
+def is_poor(near: Neighbors) -> np.ndarray:
     """Return whether the neighbors are almost on one line, or far to one side of the
     place: [n]."""
-    step = state.position[near.index] - near.places[:, np.newaxis]
-    weight = (near.weight / near.weight.sum(axis=1, keepdims=True))[..., np.newaxis]
+    step, weight = near.step, near.weight[..., np.newaxis]
     mean = (weight * step).sum(axis=1)
     spread = np.sqrt((weight * (step - mean[:, np.newaxis]) ** 2).sum(axis=1))
     beside = (abs(mean) > FARTHEST * spread).any(axis=1)
     return beside | (spread.min(axis=1) < POOR * spread.max(axis=1))
 
 
-def plane_weights(state: State, near: Neighbors) -> np.ndarray:
+def plane_weights(near: Neighbors) -> np.ndarray:
     """Return what the value of each neighbor counts in the plane at the place:
     [n, k], sum 1; of the mean where the points do not span a plane."""
-    step = state.position[near.index] - near.places[:, np.newaxis]
+    weight, step = near.weight, near.step
     size = abs(step).max(axis=1, keepdims=True)
     basis = np.concatenate([np.ones((*step.shape[:2], 1)), step / size], axis=2)
-    weight = near.weight / near.weight.sum(axis=1, keepdims=True)
     moments = np.einsum("nk,nki,nkj->nij", weight, basis, basis)
     poor = np.linalg.cond(moments) > 1e4
     moments[poor] = np.eye(3)
@@ -146,8 +147,7 @@ def mean_of(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
 
 def interpolate_some(state: State, near: Neighbors) -> Values:
     """Return the values at the places of some neighbors."""
-    shares = plane_weights(state, near)
-    weight = near.weight / near.weight.sum(axis=1, keepdims=True)
+    shares, weight, step = plane_weights(near), near.weight, near.step
     pressure = np.zeros(len(state.position))
     if state.pressure is not None:
         pressure = state.pressure
@@ -155,7 +155,6 @@ def interpolate_some(state: State, near: Neighbors) -> Values:
     # a neighbor that does not count must not widen the range
     shown = np.where(near.weight[..., np.newaxis] > 0, linear, linear[:, :1])
     at = within(np.einsum("nk,nkm->nm", shares, linear), shown)
-    step = state.position[near.index] - near.places[:, np.newaxis]
     moments = np.einsum("nk,nki,nkj->nij", weight, step, step)
     away = state.stress[near.index] - at[:, np.newaxis, :4]
     slope = np.linalg.pinv(moments) @ np.einsum("nk,nki,nkm->nim", weight, step, away)
@@ -187,7 +186,7 @@ def interpolate(state: State, places: np.ndarray) -> Values:
             some = left[begin : begin + AT_ONCE]
             near = neighbors(state, tree, places[some], min(count, m))
             result.put(some, interpolate_some(state, near))
-            poor.append(some[is_poor(state, near)])
+            poor.append(some[is_poor(near)])
         left = np.concatenate(poor)
         if not len(left):
             break

@@ -135,8 +135,6 @@ class CellMeans:
         """Return the means of a field [n_points] over the polygons, by volume. Points
         at which it is nan are left out; nan where there is no other."""
         n, known = len(self.total), np.isfinite(values)
-        if known.all():
-            return self._sum(self.volume * values, n)[self.used] / self.total[self.used]
         sums = self._sum(np.where(known, self.volume * values, 0), n)[self.used]
         total = self._sum(np.where(known, self.volume, 0), n)[self.used]
         return np.divide(sums, total, out=np.full(len(sums), np.nan), where=total > 0)

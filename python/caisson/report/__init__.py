@@ -57,11 +57,7 @@ def rate_of(rate: float | None) -> "Rate":
 
 def find_browser() -> str:
     """Return the path of a browser that can run without a window, or nothing."""
-    for name in BROWSERS:
-        path = shutil.which(name)
-        if path:
-            return path
-    return ""
+    return next(filter(None, map(shutil.which, BROWSERS)), "")
 
 
 def print_pdf(path: Path) -> Path:

@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
+from caisson.study import StudyError
+
 # name: the keys that must be there, and those that may
 SPREAD = "standard_deviation"
 VARIATION = "coefficient_of_variation"
@@ -36,14 +38,10 @@ ALL_KEYS = {VARIATION}.union(*(must | may for must, may in KEYS.values()))
 LEAST = 1e-6  # share of a distribution that must be left between min and max
 
 
-class DistributionError(Exception):
-    """What is wrong with a distribution; the text is for the user."""
-
-
 def require(holds: bool, text: str) -> None:
-    """Raise DistributionError unless the condition holds."""
+    """Raise StudyError unless the condition holds."""
     if not holds:
-        raise DistributionError(text)
+        raise StudyError(text)
 
 
 def is_number(value: object) -> bool:
@@ -75,7 +73,7 @@ def numbers_of(name: str, given: Mapping[str, Any]) -> dict[str, float]:
 
 
 def check(name: str, of: Mapping[str, float]) -> None:
-    """Raise DistributionError where no distribution has these numbers."""
+    """Raise StudyError where no distribution has these numbers."""
     low, high = of.get("min", -math.inf), of.get("max", math.inf)
     require(low < high, f"min is {low:g} and must be below max, {high:g}")
     if SPREAD in of:
@@ -119,8 +117,7 @@ class Distribution:
     """A distribution, cut off where that is asked for."""
 
     def __init__(self, name: str, given: Mapping[str, Any]) -> None:
-        """given: the keys of the study but "distribution". Raises
-        DistributionError."""
+        """given: the keys of the study but "distribution". Raises StudyError."""
         of = numbers_of(name, given)
         check(name, of)
         self.law = law_of(name, of)

@@ -9,11 +9,10 @@ import numpy as np
 from caisson.uncertain.distributions import (
     ALL_KEYS,
     Distribution,
-    DistributionError,
     is_number,
     require,
 )
-from caisson.uncertain.formula import Formula, FormulaError
+from caisson.uncertain.formula import Formula
 from caisson.paths import distinct_ends
 from caisson.runner import Entries
 from caisson.study import StudyError
@@ -156,7 +155,7 @@ def check_keys(given: Any) -> str:
 
 
 def read(name: str, given: Any) -> Parameter:
-    """Return a parameter of a study. Raises DistributionError or FormulaError."""
+    """Return a parameter of a study. Raises StudyError."""
     way, found = check_keys(given), Parameter(name, base=given.get("base"))
     what = given[way]
     if way == "choices":
@@ -197,7 +196,7 @@ def read_all(tables: object) -> list[Parameter]:
     for name, table in tables.items():
         try:
             found.append(read(name, table))
-        except (DistributionError, FormulaError) as error:
+        except StudyError as error:
             raise StudyError(f"parameter {name!r}: {error}") from error
     check_entries(found)
     labels = distinct_ends([parameter.name.split("/") for parameter in found])

@@ -10,6 +10,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from caisson.study import StudyError
+
 FUNCTIONS: dict[str, Callable[..., float]] = {
     "abs": abs,
     "min": min,
@@ -31,15 +33,11 @@ PARTS = (
 )
 
 
-class FormulaError(Exception):
-    """What is wrong with a formula; the text is for the user."""
-
-
 class Formula:
     """A formula, which is read once and computed for many values."""
 
     def __init__(self, text: str) -> None:
-        """Raises FormulaError where it cannot be read."""
+        """Raises StudyError where it cannot be read."""
         self.text = text
         try:
             tree = ast.parse(text, mode="eval")
@@ -49,15 +47,15 @@ class Formula:
                     part.value = float(part.value)  # whole ones have no largest power
                 elif not isinstance(part, PARTS):
                     words = f"{ast.unparse(part)!r} is not understood"
-                    raise FormulaError(f"the formula {text!r:.80}: {words}")
+                    raise StudyError(f"the formula {text!r:.80}: {words}")
             self.code = compile(tree, "", "eval")
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-            raise FormulaError(f"the formula {text!r:.80} cannot be read") from error
+            raise StudyError(f"the formula {text!r:.80} cannot be read") from error
         found = {part.id for part in parts if isinstance(part, ast.Name)}
         self.names = found - set(FUNCTIONS)  # of parameters
 
     def value(self, values: Mapping[str, Any]) -> float:
-        """Return its value. Raises FormulaError where it has none."""
+        """Return its value. Raises StudyError where it has none."""
         used = {name: values[name] for name in self.names & set(values)}
         try:
             if words := [k for k, v in used.items() if not isinstance(v, (int, float))]:
@@ -71,7 +69,7 @@ class Formula:
             TypeError,
             ValueError,
         ) as error:
-            raise FormulaError(f"the formula {self.text!r:.80}: {error}") from error
+            raise StudyError(f"the formula {self.text!r:.80}: {error}") from error
         if not math.isfinite(result):
-            raise FormulaError(f"the formula {self.text!r} gives {result}")
+            raise StudyError(f"the formula {self.text!r} gives {result}")
         return result

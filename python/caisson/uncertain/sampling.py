@@ -17,7 +17,6 @@ from scipy.stats import qmc
 
 from caisson.uncertain.distributions import is_number
 from caisson.uncertain.entry import Parameter, Sample, Value, read_all, text_of
-from caisson.uncertain.formula import FormulaError
 from caisson.runner import Run, RunError
 from caisson.study import StudyError, file_name
 
@@ -185,7 +184,7 @@ def with_formulas(sample: Sample, parameters: Sequence[Parameter]) -> Sample:
         assert parameter.formula
         try:
             value = parameter.formula.value(sample)
-        except FormulaError as error:
+        except StudyError as error:
             raise StudyError(f"parameter {parameter.name!r}: {error}") from error
         sample = {**sample, parameter.name: float(f"{value:.6g}")}
     return sample

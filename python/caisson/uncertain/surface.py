@@ -203,11 +203,6 @@ def refusal_of(
     return Refusal(float(chances[:, 1].mean()), count, n, wrong)
 
 
-def samples_of(outcomes: Outcomes) -> list[Sample]:
-    """Return the samples of the distributions at which the surfaces are taken."""
-    return list(latin({**outcomes.study.keys, "samples": SAMPLES}, outcomes.free))
-
-
 @functools.lru_cache(maxsize=4)
 def of_study(outcomes: Outcomes) -> Surfaces | None:
     """Return the spread of the penetration by weight and of what is observed at the
@@ -217,7 +212,8 @@ def of_study(outcomes: Outcomes) -> Surfaces | None:
         return None
     runs, planned = outcomes.complete, planned_of(outcomes)
     points = numbers_of(outcomes.free, [run.sample for run in runs])
-    everywhere = numbers_of(outcomes.free, samples_of(outcomes))
+    samples = latin({**outcomes.study.keys, "samples": SAMPLES}, outcomes.free)
+    everywhere = numbers_of(outcomes.free, list(samples))
     depths = planned * np.array(QUARTERS)
     has_suction = outcomes.column == "required_suction_Pa"
     rests = np.array([math.nan if r.rest is None else r.rest for r in runs])
