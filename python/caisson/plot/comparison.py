@@ -48,14 +48,6 @@ def names_of(directories: Sequence[Path]) -> list[str]:
     return names
 
 
-def default_picture(directories: Sequence[Path]) -> Path:
-    """Return the picture beside the first run, with the names of all: other runs have
-    another one."""
-    names = "_".join(name.replace("/", "-") for name in names_of(directories))
-    folder = directories[0].resolve().parent
-    return folder / f"comparison_{names[:LONGEST]}.png"
-
-
 def directories_of(words: list[Path]) -> list[Path]:
     """Return the directories among the words of the command, without the picture that
     may stand before them."""
@@ -186,7 +178,9 @@ def main(options: argparse.Namespace) -> int:
     shown = Units(frozenset.intersection(*smaller))  # where all are small
     usual = INTERVAL_OF_SMALL if "m" in shown.smaller else INTERVAL
     columns = columns_of(histories, options.interval or usual)
-    picture = picture or default_picture(directories)
+    if picture is None:  # with the names of all: other runs have another one
+        names = "_".join(name.replace("/", "-") for name in histories)[:LONGEST]
+        picture = directories[0].resolve().parent / f"comparison_{names}.png"
     with disk.all_or_none(options.overwrite):
         written = [draw(picture, histories, shown)]
         written.append(write_columns(picture.with_suffix(".csv"), columns))

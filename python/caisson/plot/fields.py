@@ -286,16 +286,6 @@ def shown_values(
     return values[np.isfinite(values)]
 
 
-def stress_of(
-    frames: Sequence[Frame], window: Window
-) -> tuple[list[np.ndarray], Style]:
-    """Return the vertical stress of each frame in kPa, compression positive, and its
-    colors."""
-    fields = [frame.means.of(-frame.soil["stress_Pa"][:, 1] / 1e3) for frame in frames]
-    highest = np.percentile(shown_values(frames, fields, window), 99)
-    return fields, {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
-
-
 def ratio_of(label: str, frames: Sequence[Frame]) -> Field:
     """Return the vertical stress over that at rest, white where it is 1."""
     shown = [np.maximum(frame.ratio, 1e-6) for frame in frames]  # none is below 0
@@ -331,13 +321,13 @@ def figure_of(
 
 
 def draw_stress(path: Path, frames: Sequence[Frame], window: Window, name: str) -> Path:
-    """Draw the vertical stress at each frame, and its ratio to that at rest. name: of
-    this stress."""
-    stress = (f"left halves: {name} (kPa)", *stress_of(frames, window))
-    sides = [
-        stress,
-        ratio_of("right halves: ratio to stress at rest (gray: none)", frames),
-    ]
+    """Draw the vertical stress at each frame, compression positive, and its ratio to
+    that at rest. name: of this stress."""
+    fields = [frame.means.of(-frame.soil["stress_Pa"][:, 1] / 1e3) for frame in frames]
+    highest = np.percentile(shown_values(frames, fields, window), 99)
+    style: Style = {"cmap": "turbo", "vmin": 0, "vmax": nice_above(highest)}
+    ratio = ratio_of("right halves: ratio to stress at rest (gray: none)", frames)
+    sides = [(f"left halves: {name} (kPa)", fields, style), ratio]
     return disk.save(figure_of(frames, window, sides)[0], path)
 
 

@@ -69,16 +69,6 @@ def draw_flow(
         draw_arrows(axes, line, window)
 
 
-def draw_mudline(
-    axes: Axes, flow: Flow, body: np.ndarray, window: fields.Window
-) -> None:
-    """Draw where the soil ends, on both sides of the axis, and white above it."""
-    for r, z in (part.T for part in flow.mudline(body)):
-        for side in (-1, 1):
-            axes.fill_between(side * r, z, window[2], facecolor="white", zorder=2.2)
-            axes.plot(side * r, z, color="0.3", linewidth=0.8, zorder=2.3)
-
-
 def caption(frames: Sequence[fields.Frame]) -> str:
     """Return what the lines mean."""
     level = "half the depth of the tip" if len(frames[-1].body) else "the mudline"
@@ -112,14 +102,17 @@ def draw_water(
     window: fields.Window,
     flows: bool | None,
 ) -> None:
-    """Draw the mudline, and flow lines where the water flows, or that it hardly does;
-    flows: None where no flow is computed."""
+    """Draw flow lines where the water flows, or that it hardly does, and where the soil
+    ends, with white above it; flows: None where no flow is computed."""
     if flows:
         draw_flow(axes, flow, frame, window)
     elif flows is not None:
         place = (-window[0] / 2, window[1] / 2)
         axes.text(*place, "hardly\nany flow", ha="center", fontsize=9)
-    draw_mudline(axes, flow, frame.body, window)
+    for r, z in (part.T for part in flow.mudline(frame.body)):
+        for side in (-1, 1):
+            axes.fill_between(side * r, z, window[2], facecolor="white", zorder=2.2)
+            axes.plot(side * r, z, color="0.3", linewidth=0.8, zorder=2.3)
 
 
 def draw(

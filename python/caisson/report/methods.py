@@ -44,13 +44,6 @@ NO_ANSWER = "none (piping)"
 NOTHING: dict[str, Any] = {"tables": [], "why": [], "reasons": [], "notes": []}
 
 
-def ratios(computed: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[str]:
-    """Return ratio_in_words() of each row."""
-    return [
-        reasons.ratio_in_words(*map(float, row)) for row in zip(computed, low, high)
-    ]
-
-
 def table(title: str, columns: dict[str, Any], shown: Units = USUAL) -> dict[str, Any]:
     """Return title, heads and rows of columns of numbers or words [n], in the units
     shown. The title has the unit of columns that name none."""
@@ -106,8 +99,11 @@ def beside(
         columns |= columns_of(method, what, shown.factor_of(title))
         ends = {method.name: tuple(method.cases.values())}
         ends |= {bound: (x, x) for bound, x in method.bounds.items()}
-        if computed is not None:
-            over |= {name: ratios(computed, *pair) for name, pair in ends.items()}
+        if computed is None:
+            continue
+        for name, pair in ends.items():
+            rows = zip(computed, *pair)
+            over[name] = [reasons.ratio_in_words(*map(float, row)) for row in rows]
     found = [table(title, columns | last, shown)]
     if over:
         words = f"{OVER}: {title[0].lower()}{title[1:]}"
@@ -137,18 +133,14 @@ def under_suction(
 
     cases = {case: of_byrne(case) for case in byrne.cases}
     found = [theory.Beside(suction_methods.HOULSBY_BYRNE, cases)]
-    left = [1 - s / installation.critical_suction(caisson, h) for s, h in pairs]
+    critical = [installation.critical_suction(caisson, h) for _, h in pairs]
+    left = np.clip(1 - suction / critical, 0.0, 1.0)
     for answer in answers:
         if answer.method in suction_methods.BY_CONE and answer.forces:
-            cases = {
-                case: np.array(
-                    [
-                        reasons.relieved(by_case(answer, case, i), x).total
-                        for i, x in enumerate(left)
-                    ]
-                )
-                for case in answer.method.cases
-            }
+            cases = {}
+            for case in answer.method.cases:
+                tip, inner, outer, _ = answer.forces[case].values()
+                cases[case] = left * (tip + inner) + outer
             found.append(theory.Beside(answer.name, cases))
     return found
 
@@ -303,9 +295,9 @@ def walls_of(run: Results, h: float) -> reasons.Walls | None:
     return reasons.Walls(means[0], means[1], ends[0], ends[1])
 
 
-def by_case(answer: theory.Answer, case: str, i: int = 0) -> Forces:
-    """Return the forces of an answer at one of its depths."""
-    return Forces(*(float(answer.forces[case][part][i]) for part in theory.PARTS[:3]))
+def by_case(answer: theory.Answer, case: str) -> Forces:
+    """Return the forces of an answer at the first of its depths."""
+    return Forces(*(float(answer.forces[case][part][0]) for part in theory.PARTS[:3]))
 
 
 # ------------------------------------------------------- one beside the other

@@ -45,12 +45,6 @@ PICTURES = {
 CHARTS = ("walls",)  # pictures of lines, not of fields
 
 
-def script(name: str) -> str:
-    """Return a script of Debian's for the page."""
-    text = (JAVASCRIPT / name).read_text(encoding="utf-8")
-    return text.replace("</script", "<\\/script")
-
-
 def pictures_of(run: Results) -> list[dict[str, str]]:
     """Return the run's pictures as data, each with what it shows; drawn where the run
     has left none."""
@@ -142,6 +136,7 @@ def render(
     """Return a page with the cards whose data are known, and without the others. footer
     and signature: at the foot of each page of paper; the title without them."""
     name = known.pop("name", title)
+    scripts = [(JAVASCRIPT / x).read_text(encoding="utf-8") for x in SCRIPTS]
     data = json.dumps({"figures": figures, "csv": csv, "name": name}, allow_nan=False)
     return template(HERE / "page.html").render(
         MISSING,
@@ -151,7 +146,7 @@ def render(
         figures=figures,
         charts=CHARTS,
         style=(HERE / "page.css").read_text(encoding="utf-8"),
-        scripts=[script(name) for name in SCRIPTS],
+        scripts=[text.replace("</script", "<\\/script") for text in scripts],
         own_script=(HERE / "page.js").read_text(encoding="utf-8"),
         data=data.replace("<", "\\u003c"),
         **known,

@@ -24,12 +24,6 @@ class Row(NamedTuple):
     folder: str
 
 
-def asked_of(run: Results) -> str:
-    """Return the phases that were asked for last."""
-    path = run.directory / LIST
-    return disk.read_text(path, InputError) if path.is_file() else run.entry(ENTRY)
-
-
 def said_of(run: Results, before: Results, is_rest: bool) -> str:
     """Return what a phase came to, after another run; of one that failed, goes on, or
     was stopped, only that."""
@@ -60,7 +54,9 @@ def row_of(
 
 def rows_of(run: Results) -> list[Row]:
     """Return a row for each phase; none of a scene without. Raises InputError."""
-    every = phases.phases_in(asked_of(run))
+    path = run.directory / LIST  # those that were asked for last
+    asked = disk.read_text(path, InputError) if path.is_file() else run.entry(ENTRY)
+    every = phases.phases_in(asked)
     title = run.known.get("title") or Path(str(run.known.get("scene_file"))).stem
     names = (phases.folder_of(phase, i) for i, phase in enumerate(every, 2))
     runs = [run, *(Results(run.directory / name) for name in names)]

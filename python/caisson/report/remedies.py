@@ -237,12 +237,6 @@ def pump_of(planned: Planned) -> Pump | None:
     return Pump(planned.required, others[name], planned.found.named(name))
 
 
-def changes_between(run: Results, top: float, bottom: float) -> bool:
-    """Return whether another layer begins between two depths (m)."""
-    tops = [layer.get("top_depth_m", 0) for layer in run.scene.get("layers", [])]
-    return any(top < depth < bottom for depth in tops)
-
-
 def skirt_of(planned: Planned) -> tuple[float, float] | None:
     """Return the skirt that leaves room for the heave of the plug, and the present one
     (m), if it is longer."""
@@ -263,9 +257,9 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
     planned = Planned(run, found, target)
     if not np.isfinite(planned.required):
         return "too few numbers above"
-    if not run.by_hand and changes_between(
-        run, float(found.depth[planned.rows][0]), target
-    ):
+    above = found.depth[planned.rows][0]
+    tops = [layer.get("top_depth_m", 0) for layer in scene.get("layers", [])]
+    if not run.by_hand and any(above < top < target for top in tops):
         return NOT_KNOWN
     return planned
 

@@ -145,30 +145,28 @@ def lines_of(run: Results) -> list[str]:
     return [line for line in (verdict_of(run).text, by_weight) if line]
 
 
-def soft_layer_of(found: Installation, i: int) -> dict[str, float]:
-    """Return the top of the soft layer below the tip (m) if that governs at a depth."""
-    governs = bool(found.remark(found.governing(i), i))
-    return {"soft_layer_top_m": float(found.soft_below[i])} if governs else {}
-
-
 def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
     """Return required and allowable suction (Pa) and what governs it, by depth (m)."""
     found = outcome.whole_way(run)
     if found is None or not found.limits:
         return []
     found = feasible_part(run, found, end)
-    return [
-        {
-            DEPTH: float(h),
-            evaluation.SUCTION: 1e3 * float(found.required[i]),
-            "allowable_suction_Pa": 1e3 * float(found.allowable[i]),
-            "governed_by": found.governing(i),
-            "factor": found.factors[found.governing(i)],
-        }
-        | soft_layer_of(found, i)
-        for i, h in enumerate(found.depth)
-        if found.governing(i)
-    ]
+    rows = list[dict[str, Any]]()
+    for i, h in enumerate(found.depth):
+        if not (name := found.governing(i)):
+            continue
+        rows.append(
+            {
+                DEPTH: float(h),
+                evaluation.SUCTION: 1e3 * float(found.required[i]),
+                "allowable_suction_Pa": 1e3 * float(found.allowable[i]),
+                "governed_by": name,
+                "factor": found.factors[name],
+            }
+        )
+        if found.remark(name, i):
+            rows[-1]["soft_layer_top_m"] = float(found.soft_below[i])
+    return rows
 
 
 def keep(run: Results) -> str:
