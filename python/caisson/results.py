@@ -147,30 +147,28 @@ class Results:
             return {}
         return self.table("history_error.csv", "penetration_m")
 
-    def _json(self, name: str) -> Any:
-        path = self.directory / name
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """Sizes, times and counts: run.json."""
+        path = self.directory / "run.json"
         if not path.is_file():
-            raise ResultsError(f"no {name} in {self.directory}")
+            raise ResultsError(f"no {path.name} in {self.directory}")
         text = disk.read_text(path, ResultsError)
         try:
-            return json.loads(
+            found = json.loads(
                 text,
                 object_hook=lambda found: Read(path, found),
                 parse_int=lambda digits: int(digits) if len(digits) < 19 else math.inf,
             )
         except (ValueError, RecursionError) as error:
             raise ResultsError(f"{path} cannot be read: {error}") from error
-
-    @functools.cached_property
-    def summary(self) -> dict[str, Any]:
-        """Sizes, times and counts: run.json."""
-        found = self._json("run.json")
         if not isinstance(found, Read):
-            raise ResultsError(f"{self.directory / 'run.json'} is no list of results")
+            raise ResultsError(f"{path} is no list of results")
         for fault in run_shape.faults(found):
-            raise ResultsError(f"{found.path}: {disk.one_line(fault)}")
-        for name in run_shape.missing(found):
-            raise ResultsError(f"{found.path} has no {name}")
+            raise ResultsError(f"{path}: {disk.one_line(fault)}")
+        is_whole = found.get("status") == "finished" and "written" in found
+        for name in (x for x in run_shape.NEEDED if is_whole and x not in found):
+            raise ResultsError(f"{path} has no {name}")
         return found
 
     def parts_of_wall(self, name: str, *lengths: str) -> list[tuple[float, ...]]:

@@ -6,7 +6,6 @@ from typing import Any
 NUMBER: Any = (int, float)
 OR_NONE: Any = (*NUMBER, type(None))  # where there is no finite one
 ANY = "*"  # every other name
-NUMBERS = {ANY: NUMBER}
 TEXTS = {ANY: str}
 LAYER: dict[str, Any] = {
     **dict.fromkeys(("law", "library_checksum"), str),
@@ -38,12 +37,6 @@ RUN: dict[str, Any] = {
 }
 # of a run that finished; earlier versions wrote neither "written" nor all of these
 NEEDED = "entries", "units", "defaults", "assumed", "results", "energies", "scene"
-
-
-def missing(found: dict[str, Any]) -> list[str]:
-    """Return the keys that the run.json of a finished run lacks."""
-    is_whole = found.get("status") == "finished" and "written" in found
-    return [name for name in NEEDED if is_whole and name not in found]
 
 
 def faults(found: Any, shape: Any = RUN, key: str = "") -> Iterator[str]:

@@ -258,11 +258,10 @@ def run_band(arguments: list[str]) -> int:
         chain = run_several.Chain(words, entries, None, None)
         chain.refuse_way()
     status, is_new = run_several.run_band(arguments, draw, reporting)
-    if chain is None or status != Status.SUCCESS:
-        if chain is not None:
-            print(
-                "run: phases follow when all of the band is complete", file=sys.stderr
-            )
+    if chain is None:
+        return status
+    if status != Status.SUCCESS:
+        print("run: phases follow when all of the band is complete", file=sys.stderr)
         return status
     return chain.main(try_to_draw, reporting, is_new)
 

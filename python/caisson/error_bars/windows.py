@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves, disk, table
-from caisson.results import Results, Table
+from caisson.results import Results
 from caisson.runner import Entries, Run, query, set_options
 from caisson.run_error_bar import SUCTION
 
@@ -114,7 +114,11 @@ def write_means(
     constant about it, and run.json with the fingerprint of the scene."""
     absolute = {quantity.column() for quantity in SUCTION}
     columns = [name for name in results[0].history if name not in absolute]
-    means = [means_of(r.history, w.averaged) for r, w in zip(results, windows)]
+    means = []
+    for history, window in zip((r.history for r in results), windows):
+        depth = history["penetration_m"]
+        last = depth > depth[-1] - window.averaged
+        means.append({name: float(np.mean(x[last])) for name, x in history.items()})
     centers = np.array([window.depth for window in windows])
     half = curves.FORCE_WINDOW / 2
     # the first row of a history is no mean
@@ -138,10 +142,3 @@ def fingerprint(run: Run) -> str:
     Raises RunError."""
     words = [str(run.scene), *set_options(run.entries), "--print-parameters"]
     return query(words, run.program).rpartition("# fingerprint: ")[2]
-
-
-def means_of(history: Table, length: float) -> dict[str, float]:
-    """Return the means of all columns over the last length (m) of a way."""
-    depth = history["penetration_m"]
-    last = depth > depth[-1] - length
-    return {name: float(np.mean(column[last])) for name, column in history.items()}

@@ -61,14 +61,6 @@ def about_both(found: Springs, other: Springs | None) -> list[str]:
     return said
 
 
-def rows_of(found: Springs) -> np.ndarray:
-    """Return the records for a table: close to each other where the curves begin."""
-    last = len(found.displacement) - 1
-    shares = np.linspace(0, 1, ROWS) ** 2
-    wanted = np.searchsorted(found.displacement, shares * found.displacement[-1])
-    return np.unique(np.minimum(wanted, last))
-
-
 def beside(found: Springs, other: Springs, number: int) -> np.ndarray:
     """Return the resistance of the other run's nearest spring at the displacements
     [n] (Pa); nan where it has none, or ends before."""
@@ -88,10 +80,13 @@ def write_csv(path: Path, found: Springs, other: Springs | None) -> None:
     names += ["displacement_over_diameter", "resistance_kPa"]
     names += ["resistance_over_ultimate", "stress_kPa"]
     names += ["beside_resistance_kPa"] * (other is not None)
-    rows = []
+    # close to each other where the curves begin
+    wanted = np.linspace(0, 1, ROWS) ** 2 * found.displacement[-1]
+    picks = np.searchsorted(found.displacement, wanted)
+    picks, rows = np.unique(np.minimum(picks, len(found.displacement) - 1)), []
     for number, spring in enumerate(found.springs):
         compared = None if other is None else beside(found, other, number)
-        for row in rows_of(found):
+        for row in picks:
             z, t = found.displacement[row], spring.resistance[row]
             values = [spring.depth, spring.area, 1e3 * z, z / found.diameter]
             values.append(t / 1e3)
