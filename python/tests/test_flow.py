@@ -35,7 +35,8 @@ def soil(points: int = 2, plane: bool = False) -> CellMeans:
     position = (lower[:, None] + places).reshape(-1, 2)
     length = np.ones(len(position)) if plane else 2 * np.pi * position[:, 0]
     volume = length * (SIZE / points) ** 2
-    return CellMeans(position, volume, corners, np.zeros(len(corners), dtype=bool))
+    rigid = np.zeros(len(corners), dtype=bool)
+    return CellMeans(position, volume, corners, rigid, not plane)
 
 
 class Gradients(unittest.TestCase):

@@ -34,21 +34,6 @@ def cell_of(position: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return result
 
 
-def per_point_length(
-    points: np.ndarray, area: np.ndarray, radius: np.ndarray
-) -> np.ndarray:
-    """Return what a point's volume is divided by to give its area in the (r, z)
-    plane: 2 pi r, or 1 m in plane strain. Cells full of points show which.
-
-    points: volume in each cell; area and radius of each cell; all [n_cells].
-    """
-    used = points > 0
-    around = points[used] / (area[used] * 2 * np.pi * radius[used])
-    straight = points[used] / area[used]
-    distance = [abs(np.log(np.median(x))) for x in (around, straight)]
-    return 2 * np.pi * radius if distance[0] <= distance[1] else np.ones_like(radius)
-
-
 class CellMeans:
     """The cells that hold soil, as polygons, and means over their points."""
 
@@ -58,9 +43,10 @@ class CellMeans:
         volume: np.ndarray,
         corners: np.ndarray,
         rigid: np.ndarray,
+        axisymmetric: bool = True,
     ) -> None:
-        """position [n_points, 2], volume [n_points]; of the grid corners
-        [n_cells, 4, 2] and rigid [n_cells]."""
+        """position [n_points, 2], volume [n_points]: of the whole circumference, or of
+        1 m in plane strain; of the grid corners [n_cells, 4, 2] and rigid [n_cells]."""
         n = len(corners)
         self.cell = cell_of(position, corners)
         self.cell[self.cell >= 0] = np.where(
@@ -75,8 +61,8 @@ class CellMeans:
             corners[:, 3, 1] + corners[:, 2, 1] - corners[:, 0, 1] - corners[:, 1, 1]
         ) / 2
         radius = (corners[:, 0, 0] + corners[:, 1, 0]) / 2
-        length = per_point_length(self.total, width * height, radius)
-        self.axisymmetric = bool(np.any(length != 1))
+        length = 2 * np.pi * radius if axisymmetric else np.ones_like(radius)
+        self.axisymmetric = axisymmetric
         self.area = volume / np.where(self.known, length[self.cell], 1)
         self.used = np.flatnonzero(self.total > 0)
         self.row = np.searchsorted(self.used, self.cell).clip(max=len(self.used) - 1)

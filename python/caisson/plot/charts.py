@@ -73,8 +73,7 @@ def window_of(depth: np.ndarray) -> float:
 
 
 def smooth(depth: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """Return the running mean of a force in kN; short runs have a window of a quarter
-    of their path."""
+    """Return the running mean of a force in kN."""
     return curves.running_mean(depth, force, window_of(depth)) / 1e3
 
 

@@ -65,7 +65,9 @@ class Frame:
             points[PRESSURE] = np.where(unknown, np.nan, points[PRESSURE])
         self.body = found.corners[rigid == 1]
         volume = points["whole_volume_m3"]
-        self.means = CellMeans(self.position, volume, found.corners, rigid == 1)
+        is_round = run.entry("Grid/Geometry") != "plane strain"
+        of_grid = found.corners, rigid == 1, is_round
+        self.means = CellMeans(self.position, volume, *of_grid)
         self.ratio = cells[RATIO][self.means.used].astype(float)
         self.tops = tops_of(run.scene)
         self.time, self.shown = found.time, run.shown

@@ -95,31 +95,22 @@ def draw_heave(axes: Axes, run: Results) -> None:
     axes.set_xlabel("heave of the plug (m)")
 
 
-def ends_early(answers: methods.Answers, names: list[str], site: theory.Site) -> bool:
-    """Return whether a method has no suction at a depth where it has forces."""
-    known = answers.depth <= (site.cone.depth[-1] if site.cone else np.inf)
-    lines = [answers.suctions[name] for name in names]
-    return any(
-        np.isnan(line[known] if "cone" in name else line).any()
-        for name, line in zip(names, lines)
-    )
-
-
 def caption(answers: methods.Answers, site: theory.Site) -> str:
     """Return what the lines of the methods mean, or why there are none."""
     if clay := answers.in_clay:
         return say(CAPTIONS, "in_clay", clay.name, *clay.cases)
     if not answers.suctions:
         return f"no design methods: {answers.why_not}"
-    known, assumed = answers.suctions, theory.assumptions_of(site.scene)
-    required, cones = list(methods.CASES), methods.CONE_COLUMNS.values()
-    by_cone = [column for columns in cones for column in columns]
-    of_byrne = any(np.nan_to_num(known[name]).any() for name in required)
-    words = theory.assumptions_in_words(site.scene) if of_byrne else ""
-    with_cone = any(np.isfinite(known[name]).any() for name in by_cone)
-    required += by_cone if with_cone else []
+    assumed = theory.assumptions_of(site.scene)
+    byrne, *by_cone = answers.every
+    of_byrne = [*byrne.cases.values(), *byrne.bounds.values()]
+    has_byrne = any(np.nan_to_num(x).any() for x in of_byrne)
+    words = theory.assumptions_in_words(site.scene) if has_byrne else ""
+    with_cone = any(method.is_known for method in by_cone)
+    reached = answers.depth <= (site.cone.depth[-1] if site.cone else np.inf)
+    cases = [x[reached] for method in by_cone for x in method.cases.values()]
+    ends = any(np.isnan(x).any() for x in of_byrne + cases * with_cone)
     deepest = None if answers.rest else answers.depth.max()
-    ends = ends_early(answers, required, site)
     what = words, assumed.plug_permeability_ratio, with_cone, deepest, ends
     return "\n".join(text for _, text in say_rows(CAPTIONS, "suction", *what))
 
