@@ -107,23 +107,19 @@ class Results:
         """Forces, energies and counts; a row is the mean since the row before. Columns
         of what a scene lacks are absent."""
         found = self.table("history.csv", "time_s")
+        path = self.directory / "history.csv"
         for name in ("time_s", "penetration_m"):
             if not np.isfinite(found.get(name, 0.0)).all():
-                path = self.directory / "history.csv"
                 raise ResultsError(f"{path} has a {name} that is no number")
-        self._check_end(found)
-        return found
-
-    def _check_end(self, history: Table) -> None:
-        """Refuse a history that ends before its run did. Raises ResultsError."""
         steps = 0 if self.is_running else self.summary.get("steps")
-        last = history["step"][-1] if "step" in history else math.inf
+        last = found["step"][-1] if "step" in found else math.inf
         if steps and last < steps and self.summary.get("status") == "finished":
             raise ResultsError(
-                f"{self.directory / 'history.csv'} is cut off: its last whole row is of"
-                f" step {last:.0f}, and the run finished with step {steps:.0f}; bring"
-                " the whole file, or run the scene again"
+                f"{path} is cut off: its last whole row is of step {last:.0f}, and the"
+                f" run finished with step {steps:.0f}; bring the whole file, or run the"
+                " scene again"
             )
+        return found
 
     @functools.cached_property
     def observations(self) -> Table:

@@ -24,13 +24,6 @@ NONE = "none"  # of what one of them does not have
 Words = dict[str, str]  # by the name of an entry or a card
 
 
-def scene_of(run: Results) -> Words:
-    """Return the entries in effect with their units."""
-    units = run.known.get("units", {})
-    entries = trace.entries_of(run).items()
-    return {name: scene.in_units(x, units.get(name, "")) for name, x in entries}
-
-
 def page_of(run: Results) -> Words:
     """Return what the page of a run says first: its verdict, and its cards."""
     said = {"verdict": f"{verdict.verdict_of(run).text} {sentence_of(run)}".strip()}
@@ -56,7 +49,8 @@ def differences(runs: list[Results]) -> Iterator[str]:
     if all(run.known for run in runs):
         names = comparison.names_of([run.directory for run in runs])
         yield "of each pair, the upper is {}, the lower {}".format(*names)
-        yield from changes("scene", *map(scene_of, runs))
+        scenes = (scene.with_units(run, trace.entries_of(run)) for run in runs)
+        yield from changes("scene", *scenes)
         yield from changes("page", *map(page_of, runs))
 
 

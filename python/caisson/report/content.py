@@ -120,12 +120,11 @@ def unit_table(run: Results, end: float | None = None) -> dict[str, Any]:
     flat tip.
     """
     history, scene = run.history, run.scene
-    nothing: dict[str, Any] = {"heads": [], "rows": []}
     if curves.penetration(history) is None or not scene.get("wall_thickness_m"):
-        return nothing
+        return {}
     way = curves.main_way(history["penetration_m"])
     if len(way) < 2:
-        return nothing
+        return {}
     depth = history["penetration_m"][way]
     at = curves.down_to(end, depths_of(depth))
     at = at[at > 0]

@@ -227,7 +227,7 @@ def of_scene(run: Results, end: float | None) -> dict[str, Any]:
         "next": run.summary.get("next"),
         "job": say_rows(SENTENCES, "job", run, scene.file_of(run), layers.use_of(run)),
         "warnings": run_review.warnings_of(run, end),
-        "entries": scene.entries_of(run),
+        "entries": scene.with_units(run, run.summary.get("entries", {})),
         "defaults": scene.defaults_of(run),
         "phases": phases.rows_of(run),
     }

@@ -3,8 +3,9 @@
 included, and which of them the scene marks ASSUMED."""
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from caisson.paths import without_user
 from caisson.results import Results
@@ -64,15 +65,10 @@ def file_of(run: Results) -> str:
     return without_user(path) if path.is_absolute() else str(path)
 
 
-def entries_of(run: Results) -> dict[str, str]:
-    """Return the entries that the scene sets, with their units; those of older files
-    have none."""
-    summary = run.summary
-    units = summary.get("units", {})
-    return {
-        entry: in_units(value, units.get(entry, ""))
-        for entry, value in summary.get("entries", {}).items()
-    }
+def with_units(run: Results, entries: Mapping[str, Any]) -> dict[str, str]:
+    """Return entries with their units; those of older files have none."""
+    units = run.known.get("units", {})
+    return {name: in_units(x, units.get(name, "")) for name, x in entries.items()}
 
 
 def mass_scaling_of(run: Results) -> str:

@@ -10,16 +10,9 @@ from caisson.frame import Frame, frames_of
 from caisson.results import Results, ResultsError, Table
 
 NEAR = 4.0  # wall thicknesses, which a zone reaches
+# radii, and heights above the mudline, between which a ring of soil lies (m)
+Zone = tuple[float, float, float, float]
 RATIO, VOIDS = "vertical_stress_over_stress_at_rest", "void_ratio"
-
-
-class Zone(NamedTuple):
-    """A ring of soil between two radii and two heights above the mudline (m)."""
-
-    inner: float
-    outer: float
-    bottom: float
-    top: float
 
 
 class Disturbed(NamedTuple):
@@ -59,9 +52,9 @@ def zones_of(run: Results, depth: float) -> dict[str, Zone]:
     radius, near = diameter / 2, NEAR * wall
     inner = radius - wall
     return {
-        "outside": Zone(radius, radius + near, -depth, 0.0),
-        "inside": Zone(inner - near, inner, -depth, 0.0),
-        "below the tip": Zone(inner, radius, -depth - near, -depth),
+        "outside": (radius, radius + near, -depth, 0.0),
+        "inside": (inner - near, inner, -depth, 0.0),
+        "below the tip": (inner, radius, -depth - near, -depth),
     }
 
 
@@ -71,8 +64,8 @@ def mean_in(frame: Frame, name: str, zone: Zone) -> float:
     if (values := frame.point_data.get(name)) is None:
         return np.nan
     (r, z), volume = frame.positions.T, frame.point_data["whole_volume_m3"]
-    rows = (zone.inner < r) & (r < zone.outer) & (zone.bottom < z) & (z < zone.top)
-    rows &= np.isfinite(values)
+    inner, outer, bottom, top = zone
+    rows = (inner < r) & (r < outer) & (bottom < z) & (z < top) & np.isfinite(values)
     if not rows.any():
         return np.nan
     return float(values[rows] @ volume[rows] / volume[rows].sum())

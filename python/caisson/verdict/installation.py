@@ -296,17 +296,6 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     return [in_units(takes | pump, shown), in_units(margins | room, shown)]
 
 
-def cells_of(
-    found: Installation, values: np.ndarray, at: list[int | None]
-) -> list[str]:
-    """Return values [n] (kPa) in rows at; a dash where there is none."""
-    factor = found.shown.factor("kPa")
-    known = [None if i is None else float(values[i]) for i in at]
-    return [
-        "-" if v is None or not np.isfinite(v) else text_of(factor * v) for v in known
-    ]
-
-
 def quarters_of(
     run: Results, found: Installation, end: float | None, planned: float | None
 ) -> dict[str, Any]:
@@ -329,7 +318,7 @@ def quarters_of(
         return {}
     needs = in_range(known, known.required, known.required_bounds, "kPa")
     none = "not feasible" if end is not None else "not reached"
-    rows = [[shown.named("required suction (kPa)")]]
+    rows, factor = [[shown.named("required suction (kPa)")]], shown.factor("kPa")
     for i, depth in zip(places, wanted):
         if i is None:
             cell = none if depth > reached else "before the start"
@@ -340,7 +329,8 @@ def quarters_of(
         label = known.named(name) + known.remark(name)
         if name == limits.LID and found.lid is not None:
             label += f": at about {shown.place(found.lid, 1)}"
-        rows.append([label, *cells_of(known, values, places)])
+        in_rows = (np.nan if i is None else factor * values[i] for i in places)
+        rows.append([label, *(text_of(x) or "-" for x in in_rows)])
     rows += [[words] + ["-"] * len(wanted) for words in known.absent]
     least = [
         "" if i is None or known.required[i] <= NOTHING else known.governing_in_words(i)

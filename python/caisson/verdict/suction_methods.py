@@ -57,7 +57,7 @@ class Answers:
     where a method has no answer; rest: the penetration (m) by the weight alone,
     by column, where the weight comes to rest; neither of them, and why not.
     in_clay: the required suctions of ground with clay, and with rest those of its
-    method, rest_by; plug: at which suctions (Pa) a plug of clay gives way, [n].
+    method, rest_by.
     """
 
     depth: np.ndarray
@@ -67,7 +67,6 @@ class Answers:
     assumed: str = ""  # of the cone resistance: what it rests on
     in_clay: theory.Beside | None = None
     rest_by: str = "Houlsby & Byrne"
-    plug: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def required(self) -> list[theory.Beside]:
@@ -182,9 +181,9 @@ def needed_beside_clay(
 def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
     """Return what the method of clay says at embedments [n]. why_not: of the others."""
     answer = theory.answer_of(theory.OF_CLAY, site, depth)
-    plug, (critical, _) = theory.plug_limits(site, depth), flow_above_clay(site, depth)
+    critical, _ = flow_above_clay(site, depth)
     if not answer.forces or site.scene.get(WEIGHT) is None:
-        return Answers(depth, why_not=why_not, plug=plug)
+        return Answers(depth, why_not=why_not)
     weight = weight_of(site.scene)
     area = pi / 4 * theory.skirt_of(site).inner_diameter ** 2
     needed = {
@@ -199,7 +198,6 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
         assumed=answer.assumed,
         in_clay=theory.Beside(answer.name, needed),
         rest_by=answer.method.name,
-        plug=plug,
     )
 
 
