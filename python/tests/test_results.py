@@ -168,6 +168,13 @@ class Pictures(Directory):
             for panel in panels:
                 self.assertEqual(panel.get_ylabel(), f"penetration of the {lowest} (m)")
 
+    def test_order_of_raw_lines(self) -> None:
+        """It is that of the legend, so that a picture is the same in each process."""
+        run = Results(TINY)
+        panel = forces.draw_over_depth(run, run.history["penetration_m"]).axes[0]
+        raw = [line.get_color() for line in panel.lines if line.get_linewidth() == 0.5]
+        self.assertEqual(raw, list(forces.COLORS.values()))
+
     def test_frames_of_another_version(self) -> None:
         path = Path(shutil.copytree(TINY, self.path / "run"))
         for file in path.glob("points_*.vtu"):

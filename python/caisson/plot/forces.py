@@ -66,7 +66,7 @@ def draw_panel(axes: Axes, run: Results, shown: list[Curve], label: str) -> None
     some = [c for c in shown if c["label"].startswith(names)]
     if len(names) == len(COLORS):
         some = [c for c in some if not c.get("hidden")]
-    for name in {c["label"] for c in some} & set(COLORS):
+    for name in filter({c["label"] for c in some}.__contains__, COLORS):
         raw = history[column_of(name)] / 1e3
         axes.plot(raw, depth, color=COLORS[name], linewidth=0.5, alpha=0.35)
     charts.draw(axes, some)
