@@ -5,7 +5,6 @@ the largest pull. verdict/outcome.py has what came out of a run.
 All of them follow from history.csv. They are means of curves.smoothed_at(), except the
 largest pull: that is the largest median over neighboring rows of a way up.
 """
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,7 +36,6 @@ FRICTION_RISE = 5e-3  # m, which mobilizes friction
 FURTHER, BEFORE, NEARLY = 0.2, 0.7, 0.93
 LEAST_HELD = 0.02  # of all of the way, over which suction must act to count
 LITTLE = 0.1  # of a pull
-NO_CAPACITY = "the pull neither fell nor levelled off: it is not the capacity"
 
 
 class Way(NamedTuple):
@@ -265,8 +263,3 @@ def largest_pull(history: Table) -> dict[str, Any]:
         if found["is_capacity"]:
             found["mechanism"] = mechanism_of(history, most, growth)
     return found
-
-
-def capacity_in_words(pull: Mapping[str, Any]) -> str:
-    """Return whether the largest pull is the capacity."""
-    return "the capacity" if pull["is_capacity"] else NO_CAPACITY

@@ -111,7 +111,8 @@ def write_means(
 ) -> None:
     """Write the means of a scene in its windows as the results of a run: history.csv
     without the suction, in which each depth (m) has the means of the nearest window,
-    constant about it, and run.json with the fingerprint of the scene."""
+    constant about it, and run.json with the fingerprint of the scene. Raises
+    RunError."""
     absolute = {quantity.column() for quantity in SUCTION}
     columns = [name for name in results[0].history if name not in absolute]
     means = []
@@ -129,16 +130,12 @@ def write_means(
         mean = means[int(np.argmin(abs(centers - place)))]
         rows.append([{**mean, "penetration_m": place}[c] for c in columns])
     table.write_csv(run.directory / "history.csv", columns, rows)
+    # by which the scene knows its error bar
+    words = [str(run.scene), *set_options(run.entries), "--print-parameters"]
+    _, _, fingerprint = query(words, run.program).rpartition("# fingerprint: ")
     found = {
         "entries": {**results[0].summary["entries"], **run.entry_texts()},
-        "fingerprint": fingerprint(run),
+        "fingerprint": fingerprint,
         "wall_time_s": sum(r.summary["wall_time_s"] for r in results),
     }
     disk.write(run.directory / "run.json", json.dumps(found))
-
-
-def fingerprint(run: Run) -> str:
-    """Return the fingerprint of the scene of a run, by which it knows its error bar.
-    Raises RunError."""
-    words = [str(run.scene), *set_options(run.entries), "--print-parameters"]
-    return query(words, run.program).rpartition("# fingerprint: ")[2]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from caisson import curves, disk
 from caisson.evaluation import rest_of
 from caisson.plot import charts
-from caisson.plot.charts import BLUE, CAPTIONS, RED, Curve, bars, line
+from caisson.plot.charts import BLUE, CAPTIONS, RED, bars, line
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results
 from caisson.template import say, say_rows
@@ -20,11 +20,6 @@ from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.outcome import depth_of
 
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
-
-
-def is_drawn(curve: Curve) -> bool:
-    """Return whether a curve says anything: no suction of 0 does."""
-    return any([*curve["x"], *curve.get("to", [])])
 
 
 def draw_rest(axes: Axes, run: Results, answers: methods.Answers) -> None:
@@ -50,7 +45,8 @@ def draw_suction(
     applied = history["suction_Pa"] / 1e3
     shown.append(line("applied, computed", "black", applied, history["penetration_m"]))
     most, beyond = charts.axis_end(shown) or 1e-3, charts.limits_beyond(found, shown)
-    charts.draw(axes, [x for x in shown if is_drawn(x) and x["label"] not in beyond])
+    seen = (x for x in shown if any([*x["x"], *x.get("to", [])]))  # not those of 0
+    charts.draw(axes, [x for x in seen if x["label"] not in beyond])
     axes.set_xlim(-0.02 * most, most)
     draw_rest(axes, run, answers)
     axes.set_xlabel("suction (kPa)")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from caisson import curves
-from caisson.evaluation import DEPTH, capacity_in_words, is_pull, is_sealed
+from caisson.evaluation import DEPTH, is_pull, is_sealed
 from caisson.plot.charts import COLORS, WATER_COLOR, column_of
 from caisson.results import Results
 from caisson.shown import Units
@@ -45,8 +45,7 @@ def sentence_of(run: Results) -> str:
     if found := retrieval_of(run):
         begin = float(run.history[DEPTH].max())
         return say(SENTENCES, "retrieved", run.shown, found, begin, run.weight)
-    how = most.get("mechanism") or capacity_in_words(most)
-    return say(SENTENCES, "pulled", run.shown, most, how, run.weight)
+    return say(SENTENCES, "pulled", run.shown, most, run.weight)
 
 
 def retrieval_table(found: Retrieval, shown: Units) -> dict[str, Any]:

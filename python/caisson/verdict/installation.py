@@ -10,13 +10,14 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from caisson import curves
 from caisson.evaluation import DEPTH, GRADIENT, at_depths, rest_of
-from caisson.paths import INSTALLED
+from caisson.runner import command_for
 from caisson.verdict import design, limits, theory
 from caisson.results import Results, Table
 from caisson.table import NOTHING, in_units, text_of
@@ -231,9 +232,8 @@ def error_asked_of(run: Results) -> int | None:
 
 def way_to_an_error(run: Results) -> str:
     """Return the command that computes the error bar of a scene."""
-    command = "caisson run" if INSTALLED else "scripts/run"
-    scene = run.known.get("scene_file") or "FILE.prm"
-    return f"{command} --error {error_asked_of(run) or 10}% {scene}"
+    scene = Path(str(run.known.get("scene_file") or "FILE.prm"))
+    return command_for(scene, (), f"--error {error_asked_of(run) or 10}%")
 
 
 def bar_at(found: Installation, bounds: Bounds | None, i: int, unit: str) -> str:

@@ -276,8 +276,10 @@ def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
         weight = float(entry["submerged_unit_weight_N_m3"])
         numbers = [0.0] * 3
         if soil == "clay":
-            walls = [adhesion(site.scene, entry, side) for side in ("inner", "outer")]
-            numbers = [float(entry["cohesion_Pa"]), *walls]
+            numbers[0] = float(entry["cohesion_Pa"])
+            for i, side in enumerate(("inner", "outer"), 1):
+                of_body = site.scene.get(f"{side}_wall_adhesion_Pa", 0.0)
+                numbers[i] = float(entry.get("wall_adhesion_Pa", of_body))
         found.append(clay.Layer(top_of(entry), weight, *numbers))
     return found
 
@@ -331,12 +333,6 @@ def soft_below(site: Site, depth: np.ndarray) -> np.ndarray:
     """
     found = of_plug(site, depth, plug_stability.soft_below)
     return np.full(len(depth), np.nan) if found is None else found
-
-
-def adhesion(scene: Scene, entry: Scene, side: str) -> float:
-    """Return the adhesion of a layer on a wall (Pa)."""
-    of_body = scene.get(f"{side}_wall_adhesion_Pa", 0.0)
-    return float(entry.get("wall_adhesion_Pa", of_body))
 
 
 class Description(NamedTuple):
