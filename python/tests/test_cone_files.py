@@ -186,7 +186,7 @@ class Command(WithFiles):
             self.written(group.format(text) + self.deep())
             for given, number in ((list[str](), 1), (["--area-ratio", "0.7"], 0)):
                 told = options("--location", "CPT02", *given)
-                remarks = interpretation.interpret(self.path, told).test.remarks
+                remarks = interpretation.interpret(self.path, told).ground.remarks
                 said = [r for r in remarks if "net area ratio of the cone:" in r]
                 self.assertEqual(len(said), number)
                 self.assertIn(words if number else "", "".join(said))

@@ -8,8 +8,8 @@ counted where it is little, and refused in a line where it is much.
 """
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -34,7 +34,8 @@ FORMATS: dict[str, tuple[str, Callable[..., Table], str]] = {
 }
 
 
-class Test(NamedTuple):
+@dataclass(frozen=True)
+class Test:
     """A test: depth (m), cone resistance, sleeve friction and pore pressure (Pa), [n]
     each, the last two None where the file has none; what was not read, in words; the
     net area ratio of the cone, None where the file has none; the depth (m) above which

@@ -29,6 +29,7 @@ Where nothing was measured, there is no layer: those above and below meet in the
 """
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from math import inf
 
 import numpy as np
@@ -66,41 +67,37 @@ class Layer:
     is_seam: bool = False
 
 
+def between(values: np.ndarray) -> np.ndarray:
+    """Return the sums of values [n] from i to j, [n + 1, n + 1]."""
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    return np.asarray(total - total[:, np.newaxis])
+
+
 def costs(x: np.ndarray, shortest: int) -> np.ndarray:
     """Return the sum of squares about the mean of x [n] or [n, n_x] from i to j,
     [n + 1, n + 1], inf where it is shorter than shortest."""
-    n = len(x)
-    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
-    count, found = np.maximum(j - i, 1), np.zeros((n + 1, n + 1))
-    for column in x.reshape(n, -1).T:
-        sums = np.concatenate([[0.0], np.cumsum(column)])
-        squares = np.concatenate([[0.0], np.cumsum(column**2)])
-        found += squares[j] - squares[i] - (sums[j] - sums[i]) ** 2 / count
-    return np.where(j - i >= shortest, np.maximum(found, 0.0), inf)
+    number = between(np.ones(len(x)))
+    columns, count = x.reshape(len(x), -1).T, np.maximum(number, 1)
+    found = sum(between(c**2) - between(c) ** 2 / count for c in columns)
+    return np.where(number >= shortest, np.maximum(found, 0.0), inf)
 
 
 def costs_of_lines(z: np.ndarray, y: np.ndarray, shortest: int) -> np.ndarray:
     """Return the sum of squares about the best straight line of y over z [n] from i to
     j, [n + 1, n + 1], as a share of y nearby and in log10; inf where it is shorter than
     shortest."""
-    n = len(z)
     width = 2 * int(round(THICKEST_SEAM / SPACING)) + 1
     nearby = np.maximum(median_filter(y, width, mode="nearest"), LEAST_NET)
     weight = (nearby * np.log(10.0)) ** -2
-
-    def sums(values: np.ndarray) -> np.ndarray:
-        total = np.concatenate([[0.0], np.cumsum(weight * values)])
-        return np.asarray(total[None, :] - total[:, None])
-
     z = z - z.mean()
-    one, of_z, of_zz, of_y, of_zy = map(sums, (z**0, z, z * z, y, z * y))
-    i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
-    is_long = j - i >= shortest
-    one = np.where(is_long, one, 1.0)
-    spread = np.where(is_long, of_zz - of_z**2 / one, 1.0)
-    common = of_zy - of_z * of_y / one
-    found = sums(y * y) - of_y**2 / one
+    one, of_z, of_zz, of_y, of_zy, of_yy = (
+        between(weight * x) for x in (z**0, z, z * z, y, z * y, y * y)
+    )
+    one = np.where(one > 0, one, 1.0)
+    spread, common = of_zz - of_z**2 / one, of_zy - of_z * of_y / one
+    found = of_yy - of_y**2 / one
     found -= np.where(spread > 0, common**2 / np.maximum(spread, 1e-30), 0.0)
+    is_long = between(np.ones(len(z))) >= shortest
     return np.where(is_long, np.maximum(found, 0.0), inf)
 
 
@@ -285,17 +282,11 @@ def stretches_of(
 ) -> list[tuple[float, float, str]]:
     """Return top, bottom and name where the names [n] of rows [n] are not the usual
     one for THINNEST_LENS and more."""
-    found: list[tuple[float, float, str]] = []
-    places = np.flatnonzero(rows)
-    begin = 0
-    for i in range(1, len(places) + 1):
-        if i < len(places) and names[places[i]] == names[places[begin]]:
-            continue
-        first, last = places[begin], places[i - 1]
-        top, bottom = float(ground.depth[first]), float(ground.depth[last])
-        if names[first] != usual and bottom - top > THINNEST_LENS - 1e-6:
-            found.append((top, bottom, str(names[first])))
-        begin = i
+    found = list[tuple[float, float, str]]()
+    for name, places in groupby(np.flatnonzero(rows), lambda i: str(names[i])):
+        depth = ground.depth[list(places)]
+        if name != usual and depth[-1] - depth[0] > THINNEST_LENS - 1e-6:
+            found.append((float(depth[0]), float(depth[-1]), name))
     return found
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from caisson import template
-from caisson.table import markdown, write_csv
+from caisson.table import markdown, text_of as number_text, write_csv
 from caisson.terminal import printable
 from caisson.design.cone_estimates import CAN, ENDS, Estimate, Estimates
 from caisson.design.cone_estimates import INDEX, K0, REFERENCE, RESISTANCE, WEIGHT
@@ -61,11 +61,6 @@ SHOWN = {
 }
 
 
-def plain(value: float) -> str:
-    """Return a number with three digits or more, without a power of ten."""
-    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
-
-
 def text_of(estimate: Estimate | None, shown: Shown, top: float) -> str:
     """Return low, best and high for the terminal; of a line over the depth d below the
     mudline (m) as "1.5 + 1.35 d". top: of the layer (m)."""
@@ -75,7 +70,9 @@ def text_of(estimate: Estimate | None, shown: Shown, top: float) -> str:
     if estimate.growth:
         ends = [(a * shown.scale, abs(b) * shown.scale) for a, b in lines]
         sign = "+" if estimate.growth > 0 else "-"
-        return " / ".join(f"{plain(a)} {sign} {plain(b)} d" for a, b in ends)
+        return " / ".join(
+            f"{number_text(a)} {sign} {number_text(b)} d" for a, b in ends
+        )
     size = (estimate.best or estimate.high) * shown.scale
     digits = DIGITS - 1 - floor(log10(size)) if size > 0 else 0
     digits = min(max(digits, shown.digits), shown.digits + DIGITS)
@@ -171,7 +168,7 @@ def remarks_on(test: Interpretation, number: int, e: Estimates) -> list[str]:
 def remarks(test: Interpretation) -> list[str]:
     """Return what is assumed of the test, what the table rests on, what is to be said
     of each layer, and what was made of the file."""
-    of_file = test.test.remarks
+    of_file = test.ground.remarks
     first = [text for text in of_file if text.startswith((ASSUMED, GIVEN))]
     of_layers = [
         text

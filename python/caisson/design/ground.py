@@ -30,7 +30,7 @@ mudline, and u_2 counts from there.
 
 SI units: m, Pa, N/m3.
 """
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -52,19 +52,14 @@ LEAST_EXCESS = 20e3  # Pa
 CONE_FACTOR = 14.0  # N_kt
 
 
-@dataclass(frozen=True)
-class Ground:
+@dataclass(frozen=True, kw_only=True)
+class Ground(Test):
     """A test with what follows from it: [n] each, from the mudline down.
 
     friction_ratio is F_r in percent, index I_c; both are nan where the file has no
-    sleeve friction. tip is q_t, normalized Q_tn; pore_pressure is u_2, None for none.
-    Rows above measured_from (m) were not measured; above says how they are known. gaps:
-    top and bottom (m) of what was not measured between the rows.
+    sleeve friction. tip is q_t, normalized Q_tn.
     """
 
-    depth: np.ndarray
-    resistance: np.ndarray
-    friction: np.ndarray | None
     tip: np.ndarray
     unit_weight: np.ndarray
     total_stress: np.ndarray
@@ -72,11 +67,7 @@ class Ground:
     normalized: np.ndarray
     friction_ratio: np.ndarray
     index: np.ndarray
-    pore_pressure: np.ndarray | None = None
     cone_factor: float = CONE_FACTOR
-    measured_from: float = 0.0
-    above: str = ""
-    gaps: tuple[tuple[float, float], ...] = ()
 
     @property
     def behavior(self) -> np.ndarray:
@@ -185,13 +176,15 @@ def under(test: Test, tip: np.ndarray, weight: np.ndarray) -> Ground:
     else:
         ratio = np.clip(100 * test.friction / net, *FRICTION_RATIOS)
     normalized, index = normalize(net, np.maximum(effective, LEAST_STRESS), ratio)
-    found = tip, weight, total, effective, normalized, ratio, index
-    return replace(
-        Ground(depth, test.resistance, test.friction, *found),
-        pore_pressure=test.pore_pressure,
-        measured_from=test.measured_from,
-        above=test.above,
-        gaps=test.gaps,
+    return Ground(
+        **vars(test),
+        tip=tip,
+        unit_weight=weight,
+        total_stress=total,
+        effective_stress=effective,
+        normalized=normalized,
+        friction_ratio=ratio,
+        index=index,
     )
 
 

@@ -31,7 +31,6 @@ class Interpretation:
     estimates; weight: where the unit weight comes from."""
 
     file: Path
-    test: Test
     ground: Ground
     names: dict[str, str]
     layers: list[Estimates]
@@ -166,7 +165,7 @@ def interpret(
     test = cone_file.read(file, how=cone_options.how_of(options))
     check(file, test, options)
     area_ratio, said = area_ratio_of(test, options.area_ratio)
-    test = test._replace(remarks=(*test.remarks, *said))
+    test = replace(test, remarks=(*test.remarks, *said))
     if deepest is not None and deepest <= test.measured_from:
         raise InputError(
             f"{file} begins at {test.measured_from:g} m, below the {deepest:g} m that"
@@ -205,7 +204,6 @@ def interpret(
         number += 1  # what grows weaker does not go on for ever
     return Interpretation(
         file,
-        test,
         ground,
         names,
         every[:number],

@@ -522,7 +522,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
         else:
             texts[options.study] = study_of(options, layers)
     if found:
-        texts[cone_test.beside(options.file)] = cone_file.text_of(found.test)
+        texts[cone_test.beside(options.file)] = cone_file.text_of(found.ground)
     print(cost)
     test = texts.get(cone_test.beside(options.file), "")
     page = by_hand(options.file, scenes, cost, estimates, test)
