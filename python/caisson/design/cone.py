@@ -15,6 +15,7 @@ row; below the last row there is no answer (nan).
 
 SI units; z is the depth below the mudline (m), q_c is in Pa.
 """
+import contextlib
 from collections.abc import Mapping, Sequence
 from math import inf, nan, pi
 from pathlib import Path
@@ -142,10 +143,13 @@ def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
     is, or as a table if it is none with heads. how: what options say of the file.
     Return in words what was made of it. Raises InputError where it cannot be read."""
     test = cone_file.read(path, with_friction=False, how=how)
+    with contextlib.suppress(InputError):  # of a column that is not needed
+        whole = cone_file.read(path, how=how)
+        test = whole if whole.was_zeroed else test
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME
-    if cone_file.is_plain(path, how):
+    if cone_file.is_plain(path, how) and not test.was_zeroed:
         disk.keep(target, disk.read_bytes(path))
     else:
         disk.keep(target, cone_file.text_of(test))

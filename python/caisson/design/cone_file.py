@@ -143,12 +143,7 @@ def is_plain(path: Path, how: How = How()) -> bool:
     rows = cone_grid.grid_of_text(lines)[0]
     if format_of(lines) or cone_formats.is_ags_group(rows):
         return False
-    if cone_grid.heads_in(rows) != 0:
-        return False
-    try:
-        return not read(path).was_zeroed
-    except InputError:  # of a column that is not needed
-        return True
+    return cone_grid.heads_in(rows) == 0
 
 
 # --------------------------------------------------------------- the values
