@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from synthetic import write_run
 
 from caisson.design import assumed, density
-from caisson.design.assumed_cone import AssumedCone, Sand, SandGround
+from caisson.design.assumed_cone import Sand, SandGround, assumed_cone
 from caisson.design.houlsby_byrne import Assumptions
 from caisson.disk import InputError
 from caisson.verdict import theory
@@ -81,7 +81,7 @@ class Formulas(unittest.TestCase):
 
     def test_by_hand(self) -> None:
         """2494 kPa 0.18^0.46 exp(2.96 0.85) at 3 m: 0.454385, and 12.3801 times."""
-        found = AssumedCone([DENSE], 5).at(3)
+        found = assumed_cone((DENSE,), 5).at(3)
         np.testing.assert_allclose(found, 14.0293e6, rtol=1e-4)
 
     def test_inverse(self) -> None:
@@ -119,7 +119,13 @@ class Profiles(unittest.TestCase):
         """The cone jumps at the top of a denser layer; the integral is that of the
         formula."""
         loose = DENSE._replace(density=0.3)
-        found = AssumedCone([loose, DENSE._replace(top=2)], 4)
+        found = assumed_cone(
+            (
+                loose,
+                DENSE._replace(top=2),
+            ),
+            4,
+        )
         self.assertAlmostEqual(
             found.at(2.01) / found.at(1.99), np.exp(1.628), delta=0.05
         )
@@ -132,7 +138,13 @@ class Profiles(unittest.TestCase):
     def test_words(self) -> None:
         """They say where it is from and where it was not fitted; they name densities of
         the layers that the tip reaches, and what a small angle leaves open."""
-        known = AssumedCone([DENSE, DENSE._replace(top=9, density=0.2)], 5).assumed
+        known = assumed_cone(
+            (
+                DENSE,
+                DENSE._replace(top=9, density=0.2),
+            ),
+            5,
+        ).assumed
         for words in (
             "ASSUMED",
             "Jamiolkowski",
@@ -142,15 +154,21 @@ class Profiles(unittest.TestCase):
         ):
             self.assertIn(words, known)
         self.assertNotIn("20 %", known)
-        angle = AssumedCone([DENSE._replace(density=None, friction_angle=40)], 5)
+        angle = assumed_cone((DENSE._replace(density=None, friction_angle=40),), 5)
         self.assertIn("from the friction angle by Bolton (1986)", angle.assumed)
         self.assertNotIn("looser sands", angle.assumed)
         self.assertIn("100 % is the densest", angle.assumed)
-        shallow = AssumedCone([DENSE._replace(density=None, friction_angle=40)], 1)
+        shallow = assumed_cone((DENSE._replace(density=None, friction_angle=40),), 1)
         self.assertNotIn("100 % is the densest", shallow.assumed)
-        small = AssumedCone([DENSE._replace(density=None, friction_angle=30)], 5)
+        small = assumed_cone((DENSE._replace(density=None, friction_angle=30),), 5)
         self.assertIn("33 degrees or less does not", small.assumed)
-        two = AssumedCone([DENSE._replace(density=0.2), DENSE._replace(top=3)], 5)
+        two = assumed_cone(
+            (
+                DENSE._replace(density=0.2),
+                DENSE._replace(top=3),
+            ),
+            5,
+        )
         self.assertIn(": 20 % from 0 m, 85 % from 3 m.", two.assumed)
 
 

@@ -20,7 +20,7 @@ from caisson.suggest import clay, cone, sand, sizes, trial, walls
 from caisson.suggest.entry import Layer, SuggestError
 from caisson.suggest.soil import layers_of
 from caisson.design import interpretation
-from caisson.design.assumed_cone import AssumedCone, Sand
+from caisson.design.assumed_cone import Sand, assumed_cone
 from caisson.design.cone_estimates import K0
 from caisson.design.correlations import DENSITY
 
@@ -244,7 +244,7 @@ class Entries(unittest.TestCase):
     def test_scene_and_design_methods_have_the_same_sand(self) -> None:
         """A cone test of the resistance that is assumed for dense sand says that it is
         dense. K0 = 1 - sin phi of the test is not that of the scene."""
-        assumed = AssumedCone([Sand(0, 10.07e3, 0.35, 0.75, 33)], 6)
+        assumed = assumed_cone((Sand(0, 10.07e3, 0.35, 0.75, 33),), 6)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "cone.csv")
             rows = zip(assumed.depth, assumed.resistance / 1e6)

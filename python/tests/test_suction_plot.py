@@ -23,7 +23,7 @@ from caisson.verdict.outcome import whole_way
 from caisson.results import Results
 from caisson.design import dnv, seepage, senders_randolph, unified
 from caisson.design import suction_installation as installation
-from caisson.design.assumed_cone import AssumedCone, Sand
+from caisson.design.assumed_cone import Sand, assumed_cone
 from caisson.design.cone import Profile, Skirt
 from caisson.design.houlsby_byrne import Caisson, Layer
 
@@ -72,7 +72,7 @@ LIGHT: dict[str, Any] = {
 
 def by_assumed_cone(h: float) -> list[float]:
     """Return the required suctions of ASSUMED (Pa)."""
-    cone = AssumedCone([Sand(0, GAMMA, 0.5, None, 30)], 4.5)
+    cone = assumed_cone((Sand(0, GAMMA, 0.5, None, 30),), 4.5)
     skirt = Skirt(D, 0.1, 20, 20)
     every = (
         dnv.method(skirt, cone, [(0.0, "sand")]),

@@ -17,6 +17,7 @@ import numpy as np
 
 from caisson.design import density
 from caisson.design.cone import Profile
+from caisson.template import ends
 
 SOURCE = "Jamiolkowski et al. (2003)"
 LEAST_STRESS = 10.0  # Pa, at the mudline
@@ -86,61 +87,47 @@ class SandGround:
         return float(density.bolton_angle(self.density_at(z), under_tip, critical))
 
 
-class AssumedCone(Profile):
-    """The cone resistance of layers of sand down to a depth."""
-
-    def __init__(self, layers: Sequence[Sand], deepest: float) -> None:
-        self.ground = ground = SandGround(layers)
-        tops = [x.top for x in ground.layers if 0 < x.top < deepest]
-        rows = [deepest * (i / 200) ** 2 for i in range(1, 201)]
-        rows += [top + side for top in tops for side in (-JUMP, JUMP)]
-        rows.sort()
-        super().__init__([0.0, *rows], [0.0, *map(ground.resistance_at, rows)])
-        self.assumed = self.words(deepest)
-
-    def densities(self, layers: Sequence[Sand], deepest: float) -> list[list[float]]:
-        """Return D_r over each layer, without what is close to the mudline."""
-        bottoms = [*(x.top for x in layers[1:]), deepest]
-        return [
-            [
-                self.ground.density_at(z)
-                for z in self.depth
-                if max(layer.top, 0.05 * deepest) < z < bottom
-            ]
-            for layer, bottom in zip(layers, bottoms)
-        ]
-
-    def words(self, deepest: float) -> str:
-        """Return what is assumed, in sentences."""
-        layers = [x for x in self.ground.layers if x.top < deepest or x.top <= 0]
-        by_layer = []
-        for layer, found in zip(layers, self.densities(layers, deepest)):
-            if found and not layer.is_clay:
-                ends = dict.fromkeys(f"{100 * x:.0f}" for x in (min(found), max(found)))
-                by_layer.append(f"{' to '.join(ends)} % from {max(layer.top, 0):g} m")
-        layers = [x for x in layers if not x.is_clay]
-        from_angle = [x for x in layers if x.density is None]
-        source = "from the friction angle by Bolton (1986)"
-        if not from_angle:
-            source = "of the sand"
-        elif len(from_angle) < len(layers):
-            source = f"of the sand, or {source}"
-        more = ""
-        if any(x.friction_angle <= density.CRITICAL_ANGLE for x in from_angle):
-            more = (
-                f" An angle of {density.CRITICAL_ANGLE:g} degrees or less does not tell"
-                " looser sands apart, and the largest density is taken."
-            )
-        elif from_angle and any("100" in text for text in by_layer):
-            more = " Sand of 100 % is the densest, and has a smaller angle there."
-        return (
-            "The cone resistance is ASSUMED, as no cone test is given: relative density"
-            f" {source}, cone resistance from it by {SOURCE}: {', '.join(by_layer)}."
-            f"{more} The formula was fitted at 50 to 400 kPa, not near the mudline."
+def words(ground: SandGround, rows: np.ndarray, deepest: float) -> str:
+    """Return what is assumed of ground at depths [n] (m), in sentences."""
+    layers = [x for x in ground.layers if x.top < deepest or x.top <= 0]
+    by_layer = []
+    for layer, bottom in zip(layers, [*(x.top for x in layers[1:]), deepest]):
+        top = max(layer.top, 0.05 * deepest)  # without what is close to the mudline
+        found = [ground.density_at(z) for z in rows if top < z < bottom]
+        if found and not layer.is_clay:
+            text = ends([100 * min(found), 100 * max(found)], ".0f")
+            by_layer.append(f"{text} % from {max(layer.top, 0):g} m")
+    layers = [x for x in layers if not x.is_clay]
+    from_angle = [x for x in layers if x.density is None]
+    source = "from the friction angle by Bolton (1986)"
+    if not from_angle:
+        source = "of the sand"
+    elif len(from_angle) < len(layers):
+        source = f"of the sand, or {source}"
+    more = ""
+    if any(x.friction_angle <= density.CRITICAL_ANGLE for x in from_angle):
+        more = (
+            f" An angle of {density.CRITICAL_ANGLE:g} degrees or less does not tell"
+            " looser sands apart, and the largest density is taken."
         )
+    elif from_angle and any("100" in text for text in by_layer):
+        more = " Sand of 100 % is the densest, and has a smaller angle there."
+    return (
+        "The cone resistance is ASSUMED, as no cone test is given: relative density"
+        f" {source}, cone resistance from it by {SOURCE}: {', '.join(by_layer)}."
+        f"{more} The formula was fitted at 50 to 400 kPa, not near the mudline."
+    )
 
 
 @lru_cache(maxsize=32)
-def assumed_cone(layers: tuple[Sand, ...], deepest: float) -> AssumedCone:
-    """Return the cone resistance of layers of sand; a report asks for it many times."""
-    return AssumedCone(layers, deepest)
+def assumed_cone(layers: tuple[Sand, ...], deepest: float) -> Profile:
+    """Return the cone resistance of layers of sand down to a depth (m); a report asks
+    for it many times."""
+    ground = SandGround(layers)
+    tops = [x.top for x in ground.layers if 0 < x.top < deepest]
+    rows = [deepest * (i / 200) ** 2 for i in range(1, 201)]
+    rows += [top + side for top in tops for side in (-JUMP, JUMP)]
+    rows.sort()
+    found = Profile([0.0, *rows], [0.0, *map(ground.resistance_at, rows)])
+    found.assumed = words(ground, found.depth, deepest)
+    return found

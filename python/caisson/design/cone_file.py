@@ -137,7 +137,7 @@ def is_plain(path: Path, how: How = How()) -> bool:
     """Return whether a file is a table of text that begins with its heads, so that any
     command reads it without an option."""
     content = content_of(path)
-    if how.is_said or content.startswith(ARCHIVE):
+    if any(how) or content.startswith(ARCHIVE):
         return False
     lines = lines_of(path, content)
     rows = cone_grid.grid_of_text(lines)[0]

@@ -19,6 +19,7 @@ import csv
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from math import isclose
 from xml.etree import ElementTree
 
 from caisson.disk import InputError
@@ -132,17 +133,10 @@ def gef_rows(lines: Sequence[str], keys: Keys, last: int) -> Rows:
             if any(cells):
                 rows.append((row, cells))
             for place, void in voids:
-                if place < len(cells) and is_void(cells[place], void):
-                    cells[place] = ""
+                if place < len(cells) and is_number(cells[place]):
+                    if isclose(value_of(cells[place]), void, rel_tol=1e-6):
+                        cells[place] = ""
     return rows
-
-
-def is_void(text: str, void: float) -> bool:
-    """Return whether a cell has no value."""
-    try:
-        return abs(value_of(text) - void) <= 1e-6 * abs(void)
-    except ValueError:
-        return False
 
 
 def gef(lines: Sequence[str], _: str) -> Table:

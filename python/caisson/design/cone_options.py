@@ -34,11 +34,6 @@ class How(NamedTuple):
     zeroed_on_deck: str = ""
     area_ratio: float | None = None
 
-    @property
-    def is_said(self) -> bool:
-        """Whether anything is said."""
-        return any(self)
-
     def refuse(self) -> None:
         """Refuse what is said where no file of a cone test is given. Raises
         InputError."""

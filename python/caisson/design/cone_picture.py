@@ -2,7 +2,7 @@
 """cpt.png: the profile of a cone test beside the layers and their estimates."""
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,9 +19,22 @@ from caisson.units import WATER
 from caisson.design.ground import CLAY, CLAY_ABOVE, SAND, SAND_BELOW, SILT, Ground
 
 COLORS = {SAND: "#f3e2b3", SILT: "#d8d3c4", CLAY: "#c9b8a8"}
-LINE, BAND = "#2166ac", "#2166ac"
-PROFILE, TIP, WATER_LINE = "0.35", "#b2182b", "#4393c3"
+PROFILE = {"color": "0.35", "linewidth": 0.9}
+BEST_LINE = {"color": "#2166ac", "linewidth": 2.2}
+BAND = {"color": "#2166ac", "alpha": 0.22}
+LENS = {"edgecolor": "0.3", "hatch": "...."}
+UNKNOWN = {"facecolor": "none", "edgecolor": "0.55", "hatch": "//"}
+WATER_LINE = {"color": "#4393c3", "linestyle": "--"}
+TIP = {"color": "#b2182b", "linestyle": "--"}
 PRESSURE = "$u_2$ (kPa)"
+# title, scale, and correlation of what an estimate of soil shows beside its rows
+OF_SOIL: dict[str, tuple[str, float, Any]] = {
+    DENSITY: ("$D_r$ (%)", 100.0, correlations.densities_of),
+    ANGLE: ("Friction angle (°)", 1.0, correlations.angles_of),
+    REFERENCE: ("$E$ at 100 kPa (MPa)", 1e-6, None),
+    MODULUS: ("$E$ (MPa)", 1e-6, None),
+    STRENGTH: ("$s_u$ (kPa)", 1e-3, correlations.strengths_of),
+}
 WIDEST = 1.6  # of an axis over the largest estimate, so that no spike hides them
 
 
@@ -42,37 +55,18 @@ def panels_of(
     found = [Panel("$q_c$ (MPa)", ground.resistance * 1e-6, RESISTANCE, 1e-6)]
     if ground.friction is not None:
         found.append(Panel("$f_s$ (kPa)", ground.friction * 1e-3))
-        found.append(Panel("$I_c$", ground.index, INDEX))
     if ground.pore_pressure is not None:
-        found.insert(2, Panel(PRESSURE, ground.pore_pressure * 1e-3))
-    has = {name for e in every for name in e.values}
-    sand = rows_with(every, ANGLE, len(ground.depth))
-    if DENSITY in has:
-        rows = rows_with(every, DENSITY, len(ground.depth))
-        density = 100 * correlations.densities_of(ground, names, BEST)
-        shown = np.where(rows, density, np.nan)
-        found.append(Panel("$D_r$ (%)", shown, DENSITY, 100.0))
-    if ANGLE in has:
-        angle = correlations.angles_of(ground, names, BEST)
-        found.append(Panel("Friction angle (°)", np.where(sand, angle, np.nan), ANGLE))
-    nothing = np.full(len(ground.depth), np.nan)
-    for name, head in ((REFERENCE, "$E$ at 100 kPa (MPa)"), (MODULUS, "$E$ (MPa)")):
-        if name in has:
-            found.append(Panel(head, nothing, name, 1e-6))
-    if STRENGTH in has:
-        fine = rows_with(every, STRENGTH, len(ground.depth))
-        strength = correlations.strengths_of(ground, names, BEST) * 1e-3
-        profile = np.where(fine, strength, np.nan)
-        found.append(Panel("$s_u$ (kPa)", profile, STRENGTH, 1e-3))
-    return found
-
-
-def rows_with(every: Sequence[Estimates], name: str, n: int) -> np.ndarray:
-    """Return which rows [n] count in layers that have a parameter."""
-    found = np.zeros(n, dtype=bool)
-    for e in every:
-        if name in e.values:
-            found |= e.layer.rows
+        found.append(Panel(PRESSURE, ground.pore_pressure * 1e-3))
+    if ground.friction is not None:
+        found.append(Panel("$I_c$", ground.index, INDEX))
+    for name, (title, scale, correlation) in OF_SOIL.items():
+        profile = np.full(len(ground.depth), np.nan)
+        layers = [e.layer for e in every if name in e.values]
+        if layers and correlation:
+            rows = np.any([layer.rows for layer in layers], axis=0)
+            profile[rows] = scale * correlation(ground, names, BEST)[rows]
+        if layers:
+            found.append(Panel(title, profile, name, scale))
     return found
 
 
@@ -85,40 +79,23 @@ def draw_layers(axes: Axes, every: Sequence[Estimates]) -> None:
         )
         axes.axhline(layer.top, color="0.45", linewidth=0.8)
         for top, bottom, kind in layer.lenses:
-            axes.axhspan(
-                top,
-                bottom,
-                facecolor=COLORS[kind],
-                edgecolor="0.3",
-                hatch="....",
-                linewidth=0,
-            )
-
-
-def curves_of(panel: Panel, e: Estimates) -> tuple[np.ndarray, list[np.ndarray]] | None:
-    """Return depths, and low, best and high there, of what a panel shows of a layer;
-    None where it has no such estimate."""
-    where = np.array([e.layer.top, e.layer.bottom])
-    estimate = e.values.get(panel.estimate)
-    if estimate is None:
-        return None
-    factor = panel.scale * (1 + estimate.growth * (where - e.layer.top))
-    return where, [estimate.at(end) * factor for end in ENDS]
+            axes.axhspan(top, bottom, facecolor=COLORS[kind], linewidth=0, **LENS)
 
 
 def draw_panel(
     axes: Axes, panel: Panel, depth: np.ndarray, every: Sequence[Estimates]
 ) -> None:
     """Draw a profile with the estimates of each layer."""
-    axes.plot(panel.profile, depth, color=PROFILE, linewidth=0.9, zorder=3)
+    axes.plot(panel.profile, depth, zorder=3, **PROFILE)
     largest = 0.0
     for e in every:
-        curves = curves_of(panel, e)
-        if curves is None:
+        if (estimate := e.values.get(panel.estimate)) is None:
             continue
-        where, (low, best, high) = curves
-        axes.fill_betweenx(where, low, high, color=BAND, alpha=0.22, lw=0, zorder=2)
-        axes.plot(best, where, color=LINE, linewidth=2.2, zorder=4)
+        where = np.array([e.layer.top, e.layer.bottom])
+        factor = panel.scale * (1 + estimate.growth * (where - e.layer.top))
+        low, best, high = (estimate.at(end) * factor for end in ENDS)
+        axes.fill_betweenx(where, low, high, lw=0, zorder=2, **BAND)
+        axes.plot(best, where, zorder=4, **BEST_LINE)
         largest = max(largest, float(high.max()))
     if panel.estimate == INDEX:
         for limit in (SAND_BELOW, CLAY_ABOVE):
@@ -130,7 +107,7 @@ def draw_panel(
         axes.set_xlim(0, 105)
     elif panel.title == PRESSURE:
         at_rest = WATER * depth * 1e-3
-        axes.plot(at_rest, depth, color=WATER_LINE, linestyle="--", linewidth=1.0)
+        axes.plot(at_rest, depth, linewidth=1.0, **WATER_LINE)
         ends = [*panel.profile, at_rest[-1], 0.0]
         axes.set_xlim(1.05 * min(ends), 1.05 * max(ends))
     else:
@@ -149,10 +126,9 @@ def draw_panel(
 def draw_unmeasured(columns: Sequence[Axes], ground: Ground) -> None:
     """Hatch the soil above the first row that was measured, and gaps."""
     above = [(0.0, ground.measured_from)] if ground.above else []
-    style = {"facecolor": "none", "edgecolor": "0.55", "hatch": "//", "lw": 0}
     for axes in columns:
         for top, bottom in (*above, *ground.gaps):
-            axes.axhspan(top, bottom, **style)
+            axes.axhspan(top, bottom, lw=0, **UNKNOWN)
 
 
 def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
@@ -183,30 +159,24 @@ def legend_of(
     """Draw the legend below the panels, with a note."""
     lenses = {kind for e in every for _, _, kind in e.layer.lenses}
     kinds = {e.layer.kind for e in every}
-    dashed = {"linestyle": "--"}
-    unknown = {"facecolor": "none", "edgecolor": "0.55", "hatch": "//"}
-    lens = {"edgecolor": "0.3", "hatch": "...."}
     handles: list[Line2D | Patch] = [
-        Line2D([], [], color=PROFILE, linewidth=0.9, label="test, by row"),
-        Line2D([], [], color=LINE, linewidth=2.2, label="best estimate of the layer"),
-        Patch(color=BAND, alpha=0.22, label="low to high"),
+        Line2D([], [], label="test, by row", **PROFILE),
+        Line2D([], [], label="best estimate of the layer", **BEST_LINE),
+        Patch(label="low to high", **BAND),
         *(Patch(color=COLORS[k], label=k) for k in COLORS if k in kinds),
         *(
-            Patch(facecolor=COLORS[k], label=f"lens of {k}", **lens)
+            Patch(facecolor=COLORS[k], label=f"lens of {k}", **LENS)
             for k in COLORS
             if k in lenses
         ),
     ]
     if ground.pore_pressure is not None:
-        handles.append(
-            Line2D([], [], color=WATER_LINE, label="water at rest", **dashed)
-        )
+        handles.append(Line2D([], [], label="water at rest", **WATER_LINE))
     if ground.above or ground.gaps:
         label = f"not measured, {ground.above or ASSUMED}"
-        handles.append(Patch(label=label, **unknown))
+        handles.append(Patch(label=label, **UNKNOWN))
     if tip is not None:
-        label = f"skirt tip at {tip:g} m"
-        handles.append(Line2D([], [], color=TIP, label=label, **dashed))
+        handles.append(Line2D([], [], label=f"skirt tip at {tip:g} m", **TIP))
     figure.legend(
         handles=handles,
         loc="lower center",
@@ -240,7 +210,7 @@ def draw(
     draw_unmeasured(columns, ground)
     if tip is not None:
         for axes in columns:
-            axes.axhline(tip, color=TIP, linewidth=1.4, linestyle="--", zorder=5)
+            axes.axhline(tip, linewidth=1.4, zorder=5, **TIP)
     figure.suptitle(title, fontsize=11)
     shown = [p.estimate for p in panels if p.estimate in names]
     if not any(e.layer.kind == SAND for e in every):  # whose modulus is one of s_u

@@ -145,19 +145,16 @@ def mean_stress(ground: Ground, k0: np.ndarray) -> np.ndarray:
 def jamiolkowski(ground: Ground, k0: np.ndarray, end: int) -> np.ndarray:
     """Return D_r [n] of Jamiolkowski et al. (2003)."""
     resistance = ground.resistance * SCATTER_OF_RESISTANCE**end
-    return limited(density_of_resistance(resistance, mean_stress(ground, k0)))
+    found = density_of_resistance(resistance, mean_stress(ground, k0))
+    return np.clip(found, 0.0, 1.0)
 
 
 def baldi(ground: Ground, _: np.ndarray, end: int) -> np.ndarray:
     """Return D_r [n] of Baldi et al. (1986)."""
     resistance = ground.resistance * SCATTER_OF_RESISTANCE**end / 1e3
     stress = (ground.stress / 1e3) ** 0.55
-    return limited(np.log(np.maximum(resistance, 1e-9) / (157 * stress)) / 2.41)
-
-
-def limited(density: np.ndarray) -> np.ndarray:
-    """Return D_r within 0 and 1."""
-    return np.clip(density, 0.0, 1.0)
+    found = np.log(np.maximum(resistance, 1e-9) / (157 * stress)) / 2.41
+    return np.clip(found, 0.0, 1.0)
 
 
 def resistance_at(ground: Ground, end: int) -> np.ndarray:

@@ -107,12 +107,9 @@ def of_houlsby_byrne(
 def of_undisturbed(h: float, computed: float, bound: float, what: str) -> str:
     """Return why a run is not at the bound of Houlsby & Byrne; what: force or suction.
     Nothing where it is."""
-    name, ends = "undisturbed ground (K0 tan \N{GREEK SMALL LETTER DELTA})", (
-        bound,
-        bound,
-    )
+    name = "undisturbed ground (K0 tan \N{GREEK SMALL LETTER DELTA})"
     none = Forces(0.0, 0.0, 0.0)
-    found = Compared(name, h, what, (computed, *ends), none, none, none)
+    found = Compared(name, h, what, (computed, bound, bound), none, none, none)
     return say("undisturbed", found.head) if is_beyond(*found.ends) else ""
 
 
