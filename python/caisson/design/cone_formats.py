@@ -267,16 +267,6 @@ def ags_ratio(group: Rows, keys: set[tuple[str, str]]) -> tuple[Facts, list[str]
     return Facts(next(iter(found), None)), said
 
 
-def ags_names(keys: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the names of the tests: locations, and the pushes of each that has
-    several."""
-    pushes: dict[str, list[str]] = {}
-    for place, push in dict.fromkeys(keys):
-        pushes.setdefault(place, []).append(f"{place}/{push}")
-    every = ([place] if len(some) == 1 else some for place, some in pushes.items())
-    return [name for names in every for name in names]
-
-
 def ags(groups: Mapping[str, Rows], where: str) -> Table:
     """Return the table of the test at a location, "" for that of the file if it has
     only one; the pushes of a location are one test. groups: their rows by name. Raises
@@ -298,9 +288,13 @@ def ags(groups: Mapping[str, Rows], where: str) -> Table:
     ]
     by_head = [dict(zip(texts, cells)) for _, cells in rows]
     keys = [(cells.get(LOCATION, ""), cells.get(PUSH, "")) for cells in by_head]
-    places = list(dict.fromkeys(place for place, _ in keys))
-    if where not in places and len(places) > 1 or where not in ("", *places):
-        where = chosen_of(ags_names(keys), where, places[0])
+    every = list(dict.fromkeys(keys))
+    places = [place for place, _ in every]
+    if where not in places and len({*places}) > 1 or where not in ("", *places):
+        every.sort(key=lambda key: places.index(key[0]))
+        # a location, or a push of one that has several
+        names = [x if places.count(x) == 1 else f"{x}/{push}" for x, push in every]
+        where = chosen_of(names, where, places[0])
     chosen = [i for i, key in enumerate(keys) if where in ("", key[0], "/".join(key))]
     advice = f"the headings are {' and '.join(QUANTITIES[n].ags for n in NEEDED)}"
     facts, said = ags_ratio(groups.get("SCPG", []), {keys[i] for i in chosen})
@@ -326,18 +320,6 @@ def number_in(element: ElementTree.Element, name: str) -> float | None:
         return None
 
 
-def bro_records(test: ElementTree.Element) -> Rows:
-    """Return the records of a test. Raises InputError."""
-    result = first_of(test, "cptResult")
-    text = (first_of(result, "values").text or "").strip()
-    if not text:
-        raise InputError("the test has no values within cptResult")
-    marks = first_of(result, "TextEncoding").attrib
-    comma, end = marks.get("tokenSeparator", ","), marks.get("blockSeparator", ";")
-    cells = [[x.strip() for x in r.split(comma)] for r in text.split(end) if r.strip()]
-    return list(enumerate(cells, 1))
-
-
 def bro(lines: Sequence[str], where: str) -> Table:
     """Return the table of a file of BRO-XML; where: its number in the register, needed
     in a file of several. Raises InputError."""
@@ -361,13 +343,20 @@ def bro(lines: Sequence[str], where: str) -> Table:
         )
     names = list(tests)
     test = tests[chosen_of(names, where, names[0])]
+    result = first_of(test, "cptResult")
+    values = (first_of(result, "values").text or "").strip()
+    if not values:
+        raise InputError("the test has no values within cptResult")
+    marks = first_of(result, "TextEncoding").attrib
+    comma, end = marks.get("tokenSeparator", ","), marks.get("blockSeparator", ";")
+    records = [r.split(comma) for r in values.split(end) if r.strip()]
     heads = [
         Head(q.bro, q.name, key, q.usual.replace("kPa", "MPa"), 1)
         for key, q in QUANTITIES.items()
     ]
     return Table(
         heads,
-        bro_records(test),
+        [(row, [x.strip() for x in cells]) for row, cells in enumerate(records, 1)],
         "the standard",
         "record 4 of 25 is q_c",
         Facts(

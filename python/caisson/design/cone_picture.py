@@ -123,14 +123,6 @@ def draw_panel(
     axes.set_axisbelow(True)
 
 
-def draw_unmeasured(columns: Sequence[Axes], ground: Ground) -> None:
-    """Hatch the soil above the first row that was measured, and gaps."""
-    above = [(0.0, ground.measured_from)] if ground.above else []
-    for axes in columns:
-        for top, bottom in (*above, *ground.gaps):
-            axes.axhspan(top, bottom, lw=0, **UNKNOWN)
-
-
 def name_layers(axes: Axes, every: Sequence[Estimates]) -> None:
     """Write the number and the kind of each layer into the first panel."""
     for number, e in enumerate(every, 1):
@@ -207,9 +199,11 @@ def draw(
     columns[0].set_ylim(every[-1].layer.bottom, 0)
     columns[0].set_ylabel("Depth below the mudline (m)")
     name_layers(columns[0], every)
-    draw_unmeasured(columns, ground)
-    if tip is not None:
-        for axes in columns:
+    above = [(0.0, ground.measured_from)] if ground.above else []
+    for axes in columns:
+        for top, bottom in (*above, *ground.gaps):  # where nothing was measured
+            axes.axhspan(top, bottom, lw=0, **UNKNOWN)
+        if tip is not None:
             axes.axhline(tip, linewidth=1.4, zorder=5, **TIP)
     figure.suptitle(title, fontsize=11)
     shown = [p.estimate for p in panels if p.estimate in names]

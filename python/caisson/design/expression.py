@@ -50,11 +50,6 @@ class Token:
         """Whether a value ends with it."""
         return self.kind != "sign" or self.text == ")"
 
-    @property
-    def begins_value(self) -> bool:
-        """Whether a value begins with it."""
-        return self.kind in ("number", "symbol", "name") or self.text == "("
-
 
 def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
     """Return the parts of an expression, with the sign of each product. Raises
@@ -72,7 +67,8 @@ def tokens_of(text: str, symbols: Mapping[str, str] = {}) -> list[Token]:
             token = replace(token, kind="name")
         if token.kind == "name":
             token = named(token, text, symbols)
-        if found and found[-1].ends_value and token.begins_value and not is_call:
+        begins = token.kind in ("number", "symbol", "name") or token.text == "("
+        if found and found[-1].ends_value and begins and not is_call:
             found.append(Token("sign", "*"))
             token = replace(token, space="")
         is_call = token.kind == "name" and token.text in FUNCTIONS

@@ -105,14 +105,6 @@ class Wall:
         self.tan_delta = tan(radians(friction_angle))
         self.k_tan_delta = k_tan_delta
 
-    def k_tan_delta_in(self, layer: Layer) -> float:
-        """Return K tan(delta) in a layer, 0 where the wall is smooth."""
-        own = layer.wall_friction_angle
-        tan_delta = self.tan_delta if own is None else tan(radians(own))
-        if self.k_tan_delta is None or tan_delta == 0:
-            return layer.lateral_stress_ratio * tan_delta
-        return self.k_tan_delta
-
     def step(
         self,
         layer: Layer,
@@ -124,7 +116,11 @@ class Wall:
         """Return the vertical stress below a piece of a layer, from that above
         it, and the friction on the piece. added: to the unit weight, by flow."""
         weight = layer.weight_under(added)
-        k_tan = self.k_tan_delta_in(layer)
+        own = layer.wall_friction_angle
+        tan_delta = self.tan_delta if own is None else tan(radians(own))
+        k_tan = self.k_tan_delta
+        if k_tan is None or tan_delta == 0:  # where the wall is smooth 0
+            k_tan = layer.lateral_stress_ratio * tan_delta
         d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
         if enhanced and z < inf:
             growth = exp(d / z) - 1

@@ -219,19 +219,12 @@ def pressures_of(run: Results, wall: Wall) -> Table:
     return dict(zip((*names, "net_external_pressure_Pa"), columns))
 
 
-def weighted_mean(x: np.ndarray, values: np.ndarray, length: float) -> float:
-    """Return the mean of values [n] at places x [n] (m) from 0 to a length (m),
-    weighted with the square of a half wave."""
-    at = np.linspace(0, length, 401)
-    weights = np.sin(pi * at / length) ** 2
-    return float(weights @ np.interp(at, x, values) / weights.sum())
-
-
 def beyond_suction(
     pressures: Table, wall: Wall, depth: Sequence[float] | np.ndarray
 ) -> np.ndarray:
     """Return what the mean pressure on the part that buckles has beyond the suction
-    (Pa) at embedments [n] (m): [n], linear between the frames; 0 without any."""
+    (Pa) at embedments [n] (m): [n], linear between the frames; 0 without any. The mean
+    is weighted with the square of a half wave."""
     if not pressures:
         return np.zeros(len(depth))
     found = []
@@ -240,7 +233,9 @@ def beyond_suction(
         at = {name: column[rows] for name, column in pressures.items()}
         more = at["net_external_pressure_Pa"] - at["suction_Pa"]
         h = float(at["penetration_m"][0])
-        length = wall.buckling_length(h)
-        found.append((h, weighted_mean(at["below_lid_m"], more, length)))
+        places = np.linspace(0, wall.buckling_length(h), 401)
+        more = np.interp(places, at["below_lid_m"], more)
+        weights = np.sin(np.linspace(0, pi, 401)) ** 2
+        found.append((h, float(weights @ more / weights.sum())))
     h, more = np.array(sorted(found)).T
     return np.interp(depth, h, more)

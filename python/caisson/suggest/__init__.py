@@ -300,7 +300,9 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
         entries, numbers = dict[str, float | str](), list[float]()
         for i, layer in enumerate(layers, 1):
             if clay.is_undrained(layer):
-                entries |= strength_after(f"Soil/Layer {i}", layer, factor)
+                for name in ("Cohesion", "Youngs modulus"):
+                    stronger = f"{factor:g}*({layer.value(name)})"
+                    entries[f"Soil/Layer {i}/{name}"] = stronger
                 continue
             change_of = density_after if by_density else angle_after
             name = density_law.DENSITY if by_density else "Friction angle"
@@ -321,14 +323,6 @@ def study_of(options: argparse.Namespace, layers: Sequence[Layer]) -> str:
         has_clay=len(sands) < len(layers),
         layers=len(layers),
     )
-
-
-def strength_after(head: str, layer: Layer, factor: float) -> dict[str, float | str]:
-    """Return the entries of clay with a strength, and a stiffness, times a factor."""
-    return {
-        f"{head}/{name}": f"{factor:g}*({layer.value(name)})"
-        for name in ("Cohesion", "Youngs modulus")
-    }
 
 
 def angle_after(layer: Layer, change: float) -> float:

@@ -82,13 +82,6 @@ def weight_of(layer: Layer, depth: float) -> float:
     return (1 - porosity) * (grains * GRAVITY - WATER)
 
 
-def wet_weight_of(strength: float, total_stress: float) -> float:
-    """Return the unit weight of wet clay (N/m3)."""
-    tip = np.array([ground.CONE_FACTOR * strength + total_stress])
-    friction = np.array([float(ADHESION_FACTOR) * strength])
-    return max(float(ground.unit_weight_of(tip, friction)[0]), LIGHTEST)
-
-
 @dataclass(frozen=True)
 class Reach:
     """Where a layer counts: depths of its top, of the middle of what the skirt reaches,
@@ -117,7 +110,10 @@ def unit_weight_of_clay(layer: Layer, reach: Reach) -> tuple[float, list[Entry]]
     for _ in range(ROUNDS):
         stress = reach.stress(reach.middle, weight)
         strength = strength_of(layer, reach.middle, stress)
-        weight = wet_weight_of(strength, stress + WATER * reach.middle) - WATER
+        tip = ground.CONE_FACTOR * strength + stress + WATER * reach.middle
+        sleeve = np.array([float(ADHESION_FACTOR) * strength])
+        wet = ground.unit_weight_of(np.array([tip]), sleeve)
+        weight = max(float(wet[0]), LIGHTEST) - WATER
     grains = number_of(layer, "Solid density", reach.middle) or QUARTZ_DENSITY
     porosity = ground.porosity_of(weight / 1e3, grains, False)
     why = f"{weight / 1e3:.2g} kN/m3 in water by s_u (Robertson & Cabal 2010)"

@@ -148,7 +148,9 @@ def spread_by(
 
     def change(_: float, texts: dict[str, str]) -> Given:
         factors: dict[str, float] = {}
-        texts = with_density(texts) if sand.SAND in texts else texts
+        if sand.SAND in texts:
+            word = texts.pop(sand.SAND)
+            texts[density_law.DENSITY] = sand.density_of_word(word).value
         for word, variation in spread.items():
             name = name_in(word, known, texts.get("Law", ""))
             if name in INVERSE:
@@ -165,13 +167,6 @@ def spread_by(
         return texts, factors
 
     return change
-
-
-def with_density(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return what is given of sand with its relative density in place of a word."""
-    density = sand.density_of_word(texts[sand.SAND]).value
-    rest = {name: text for name, text in texts.items() if name != sand.SAND}
-    return rest | {density_law.DENSITY: density}
 
 
 def of_texts(

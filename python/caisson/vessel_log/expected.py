@@ -125,15 +125,6 @@ def continued(values: np.ndarray, best: np.ndarray) -> np.ndarray:
     return best * ratio
 
 
-def by_error_bar(
-    run: Results, found: Installation, best: np.ndarray
-) -> list[np.ndarray]:
-    """Return low and high (kN) by the error bar of a run, none without one."""
-    area, bars = plug_area(run.scene), found.required_bounds
-    sides = (bars.low, bars.high) if bars else ()
-    return [best + area * (side - found.required) for side in sides]
-
-
 def by_methods(run: Results, at: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
     """Return low and high (kN) by the range of the first design method that has one,
     about the best one; none without."""
@@ -152,8 +143,10 @@ def band_about(
 ) -> tuple[list[np.ndarray], str]:
     """Return low and high (kN) about the best estimate where no run has them, and what
     they are."""
+    area, bars = plug_area(run.scene), found.required_bounds
+    sides = (bars.low, bars.high) if bars else ()
     some = {
-        "the error bar of the run": by_error_bar(run, found, best),
+        "the error bar of the run": [best + area * (x - found.required) for x in sides],
         "the range of the design methods about the run": by_methods(
             run, found.depth, best
         ),

@@ -71,35 +71,11 @@ def governing_of(expected: Expected) -> str:
     return ", then ".join(dict.fromkeys(filter(None, expected.governing)))
 
 
-def draw_log(
-    axes: Axes, expected: Expected, log: Log, bins: Bins, weight: float
-) -> None:
-    """Draw the readings and the steps that the fit takes, as suctions (kPa) under
-    a weight (kN)."""
-    force = resistance_of(log, expected)
-    axes.plot(
-        expected.suction(force, weight), log.depth, ".", color=BLUE, ms=2, alpha=0.35
-    )
-    line = expected.suction(bins.resistance, weight)
-    axes.plot(line, bins.depth, color=BLUE, lw=2, label="measured")
-
-
-def draw_forecast(axes: Axes, forecast: Forecast) -> None:
-    """Draw the forecast with its band (kPa)."""
-    style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
-    label = "forecast, nine in ten"
-    axes.fill_betweenx(
-        forecast.depth, forecast.low, forecast.high, label=label, **style
-    )
-    axes.plot(
-        forecast.best, forecast.depth, "--", color=ORANGE, lw=1.5, label="forecast"
-    )
-
-
 def draw(
     path: Path, expected: Expected, log: Log, bins: Bins, forecast: Forecast
 ) -> Path:
-    """Write the chart; return its path."""
+    """Write the chart, with the readings and the steps that the fit takes; return its
+    path."""
     figure = Figure(figsize=(7.5, 7.5))
     axes = figure.subplots()
     figure.suptitle(textwrap.fill(expected.title, 90), fontsize=9)
@@ -107,8 +83,13 @@ def draw(
     draw_expected(
         axes, expected, max(float(measured.max()), float(forecast.high.max()))
     )
-    draw_forecast(axes, forecast)
-    draw_log(axes, expected, log, bins, forecast.weight)
+    depth, ends = forecast.depth, (forecast.low, forecast.high)
+    style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
+    axes.fill_betweenx(depth, *ends, label="forecast, nine in ten", **style)
+    axes.plot(forecast.best, depth, "--", color=ORANGE, lw=1.5, label="forecast")
+    readings = expected.suction(resistance_of(log, expected), forecast.weight)
+    axes.plot(readings, log.depth, ".", color=BLUE, ms=2, alpha=0.35)
+    axes.plot(measured, bins.depth, color=BLUE, lw=2, label="measured")
     legend_below(axes, 2)
     with_note(figure, textwrap.fill(words.of_source(expected), 110))
     in_units(figure, expected.run.shown)
