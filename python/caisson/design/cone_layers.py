@@ -101,7 +101,7 @@ def costs_of_lines(z: np.ndarray, y: np.ndarray, shortest: int) -> np.ndarray:
     return np.where(is_long, np.maximum(found, 0.0), inf)
 
 
-def divide(cost: np.ndarray, shortest: int, most: int) -> list[int]:
+def divide(cost: np.ndarray, shortest: int, most: int = MOST) -> list[int]:
     """Return where the layers begin that cost least. cost: of a layer from i to j,
     [n + 1, n + 1]."""
     n = len(cost) - 1
@@ -146,21 +146,14 @@ class Points:
         return nearest(place)
 
 
-def points_of(ground: Ground, thinnest: float) -> Points:
-    """Return the points of a test."""
+def tops_of(ground: Ground, thinnest: float = THINNEST) -> list[float]:
+    """Return the tops of the layers (m), the first at 0."""
     first, last = max(ground.measured_from, ground.depth[0]), ground.depth[-1]
     spacing = max(SPACING, last / 800)
     z = np.arange(first + spacing / 2, last, spacing)
     for a, b in ground.gaps:
         z = z[(z <= a) | (z >= b)]
-    return Points(ground, z, spacing, max(int(round(thinnest / spacing)), 1))
-
-
-def tops_of(
-    ground: Ground, thinnest: float = THINNEST, most: int = MOST
-) -> list[float]:
-    """Return the tops of the layers (m), the first at 0."""
-    points = points_of(ground, thinnest)
+    points = Points(ground, z, spacing, max(int(round(thinnest / spacing)), 1))
     profiles = [np.log10(ground.normalized)]
     has_kinds = not np.isnan(ground.friction_ratio).all()
     if has_kinds:
@@ -168,14 +161,14 @@ def tops_of(
     if len(points.z) < 2 * points.shortest:
         return [0.0]
     x = np.stack([points.profile(p) for p in profiles], axis=1)
-    starts = divide(costs(x, points.shortest), points.shortest, most)
+    starts = divide(costs(x, points.shortest), points.shortest)
     if has_kinds:
-        starts = with_lines(points, starts, most)
+        starts = with_lines(points, starts)
     found = sorted({0.0, *(points.top(k) for k in starts[1:])})
-    return with_rows(ground, with_seams(ground, found, most) if has_kinds else found)
+    return with_rows(ground, with_seams(ground, found) if has_kinds else found)
 
 
-def with_lines(points: Points, starts: list[int], most: int) -> list[int]:
+def with_lines(points: Points, starts: list[int]) -> list[int]:
     """Return where layers begin if those of clay that lie on each other are divided
     again, by lines of their net resistance."""
     ground, ends = points.ground, [*starts[1:], len(points.z)]
@@ -191,8 +184,7 @@ def with_lines(points: Points, starts: list[int], most: int) -> list[int]:
         first = starts[begin]
         if i > begin:
             cost = costs_of_lines(points.z[first:end], net[first:end], points.shortest)
-            inside = divide(cost, points.shortest, most)
-            found += [first + k for k in inside]
+            found += [first + k for k in divide(cost, points.shortest)]
         else:
             found.append(first)
         begin = i + 1
@@ -257,11 +249,11 @@ def nearest(depth: float) -> float:
     return round(round(depth / SPACING) * SPACING, 2)
 
 
-def with_seams(ground: Ground, tops: list[float], most: int) -> list[float]:
+def with_seams(ground: Ground, tops: list[float]) -> list[float]:
     """Return the tops with those of seams, the thickest first, in place of others that
     are near."""
     seams = sorted(seams_of(ground), key=lambda seam: seam[0] - seam[1])
-    for top, bottom in seams[: max(most - len(tops), 0) // 2]:
+    for top, bottom in seams[: max(MOST - len(tops), 0) // 2]:
         near = [t for t in tops if top - THINNEST / 2 < t < bottom + THINNEST / 2]
         tops = sorted({t for t in tops if t not in near or t == 0} | {top, bottom})
     return tops

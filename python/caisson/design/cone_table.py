@@ -128,18 +128,6 @@ def is_number(text: str) -> bool:
         return False
 
 
-def numbers_in(cells: Sequence[str], has_points: bool) -> list[float]:
-    """Return the numbers of a row. has_points: numbers of the file have a decimal
-    point, so that a comma is none. Raises ValueError."""
-    comma = next(filter(COMMA.fullmatch, cells), "") if has_points else ""
-    if comma:
-        raise ValueError(
-            f"{comma!r} has a comma where other rows have a decimal point; write all"
-            " numbers with a point"
-        )
-    return [value_of(text) for text in cells]
-
-
 def lines_of_text(texts: Sequence[Sequence[str]], depth: int) -> list[int]:
     """Return the places of the rows of cells that are lines of text, as heads on a new
     page or "End of test". depth: the place of that."""
@@ -182,8 +170,14 @@ def numbers_of(
     has_points = any("." in text for i in kept for text in texts[i])
     values, wrong = list[list[float]](), list[tuple[int, str]]()
     for i in kept:
+        comma = next(filter(COMMA.fullmatch, texts[i]), "")
         try:
-            values.append(numbers_in(texts[i], has_points))
+            if comma and has_points:
+                raise ValueError(
+                    f"{comma!r} has a comma where other rows have a decimal point;"
+                    " write all numbers with a point"
+                )
+            values.append(list(map(value_of, texts[i])))
         except ValueError as error:
             wrong.append((table.rows[i][0], str(error)))
     refuse(wrong)

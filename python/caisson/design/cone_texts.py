@@ -183,25 +183,23 @@ def write(path: Path, every: Sequence[Estimates]) -> Path:
     """Write layers.csv: a row for each layer, empty cells where it has no value. What
     grows with depth has its values at the top of the layer, and its gradients."""
     names = quantities_of(every)
-    heads = ["layer", "top_m", "bottom_m", "soil"]
-    grows = [
-        n for n in names if any(n in e.values and e.values[n].growth for e in every)
+    grows = {n for e in every for n, estimate in e.values.items() if estimate.growth}
+    columns = [
+        (name, per_m, end)
+        for name in names
+        for per_m in ("", "_per_m")[: 1 + (name in grows)]
+        for end in ENDS
     ]
-    for name in names:
-        heads += [f"{SHOWN[name].column}_{end}" for end in ENDS]
-        if name in grows:
-            heads += [f"{SHOWN[name].column}_per_m_{end}" for end in ENDS]
+    heads = ["layer", "top_m", "bottom_m", "soil"]
+    heads += [f"{SHOWN[name].column}{per_m}_{end}" for name, per_m, end in columns]
     rows = []
     for number, e in enumerate(every, 1):
         row = [str(number), f"{e.layer.top:g}", f"{e.layer.bottom:g}", e.layer.kind]
-        for name in names:
+        for name, per_m, end in columns:
             estimate = e.values.get(name)
-            for of in (1.0, estimate.growth if estimate else 0.0)[
-                : 1 + (name in grows)
-            ]:
-                for end in ENDS:
-                    value = estimate and estimate.at(end) * SHOWN[name].scale * of
-                    row.append("" if value is None else f"{value:.4g}")
+            of = estimate.growth if estimate and per_m else 1.0
+            value = estimate and estimate.at(end) * SHOWN[name].scale * of
+            row.append("" if value is None else f"{value:.4g}")
         rows.append(row)
     write_csv(path, heads, rows)
     return path

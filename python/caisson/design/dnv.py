@@ -14,8 +14,9 @@ from collections.abc import Sequence
 from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
 
 CASES = ("most probable", "highest")
-# soil: (k_p, k_f) of each case
+# soil: (k_p, k_f) of each case; none of what another method treats
 COEFFICIENTS = {
+    "": ((0.0, 0.0), (0.0, 0.0)),
     "sand": ((0.3, 0.001), (0.6, 0.003)),
     "clay": ((0.4, 0.03), (0.6, 0.05)),
 }

@@ -11,7 +11,7 @@ flows up to the lid, not in sand below clay.
 """
 from caisson.design import dnv
 from caisson.design.clay import CASES, Clay, tip_layer
-from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile
+from caisson.design.cone import Profile
 from caisson.design.method import Forces
 
 
@@ -23,8 +23,8 @@ class Layered:
     def __init__(self, clay: Clay, profile: Profile) -> None:
         """clay: of all layers; profile: the cone resistance in those of sand."""
         self.clay, self.profile = clay, profile
-        layers = [Layer(x.top, coefficients(not x.strength)) for x in clay.layers]
-        self.sand = ConeMethod(dnv.CASES, clay.skirt, profile, layers)
+        soils = [(x.top, "" if x.strength else "sand") for x in clay.layers]
+        self.sand = dnv.method(clay.skirt, profile, soils)
 
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
@@ -34,12 +34,3 @@ class Layered:
         tip = clay.tip if is_clay else sand.tip
         walls = (a + b for a, b in zip(clay[1:], sand[1:]))
         return Forces(tip, *walls)
-
-
-def coefficients(is_sand: bool) -> dict[str, Coefficients]:
-    """Return those of DNV in sand, and none in clay."""
-    pairs = dnv.COEFFICIENTS["sand"]
-    return {
-        case: Coefficients(p, f, f) if is_sand else Coefficients(0, 0, 0)
-        for case, (p, f) in zip(dnv.CASES, pairs)
-    }

@@ -451,18 +451,6 @@ def remarks_on(options: argparse.Namespace) -> list[str]:
     return found
 
 
-def ends_of(
-    options: argparse.Namespace,
-    known: Mapping[str, str],
-    found: Interpretation | None,
-) -> dict[str, list[Layer]]:
-    """Return the layers of the low and the high estimate, of which there is one.
-    known: the units of entries; found: a cone test. Raises SuggestError."""
-    if found is None:
-        return low_and_high.of_texts(texts_of(options), known, law_of(options), options)
-    return {x: cone.layers_of(found, end_of(options), x) for x in (LOW, HIGH)}
-
-
 def soil_of(
     options: argparse.Namespace, known: Mapping[str, str]
 ) -> tuple[list[Layer], Interpretation | None]:
@@ -500,7 +488,12 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
     ):
         print(f"warning: {words}")
     scenes = {BEST: best_scene(options, layers)}
-    ends = ends_of(options, known, found) if estimates else {}
+    ends = dict[str, list[Layer]]()
+    if estimates and found:
+        ends = {x: cone.layers_of(found, end_of(options), x) for x in (LOW, HIGH)}
+    elif estimates:
+        law = law_of(options)
+        ends = low_and_high.of_texts(texts_of(options), known, law, options)
     for estimate, soil in ends.items():
         file, words = member_of(options.file, estimate), f", {estimate} estimate"
         scenes[estimate] = scene_of(options, soil[: len(layers)], file, words)

@@ -90,16 +90,11 @@ def remark(found: Interpretation, e: Estimates, name: str) -> str:
     return f"{ASSUMPTION} {places}, where nothing was measured;{text[2:]}"
 
 
-def number(value: float) -> str:
-    """Return a value with four digits."""
-    return f"{value:.4g}"
-
-
 def value_of(e: Estimates, name: str, end: str) -> str:
     """Return low, best or high of a parameter: a number, or a line over the depth d."""
     estimate = e.values[name]
     if not estimate.growth:
-        return number(estimate.at(end))
+        return f"{estimate.at(end):.4g}"
     value, gradient = estimate.line(end, e.layer.top)  # whose difference counts
     return f"{value:.6g} {'+' if gradient > 0 else '-'} {abs(gradient):.6g}*d"
 
@@ -115,11 +110,11 @@ def void_ratios_of(e: Estimates) -> tuple[float, float]:
 
 def of_density(e: Estimates, end: str) -> dict[str, str]:
     """Return the entries of low, best or high density of sand, by their names."""
-    share, (densest, loosest) = number(e.values[DENSITY].at(end)), void_ratios_of(e)
+    share, (densest, loosest) = f"{e.values[DENSITY].at(end):.4g}", void_ratios_of(e)
     start = loosest - (loosest - densest) * float(share)
     return {
         density_law.DENSITY: share,
-        density_law.MODULUS: number(e.values[REFERENCE].at(end)),
+        density_law.MODULUS: f"{e.values[REFERENCE].at(end):.4g}",
         density_law.REFERENCE_VOID_RATIO: f"{start:.6g}",
     }
 
@@ -131,7 +126,7 @@ def sand_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
     why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
     start = density_law.REFERENCE_VOID_RATIO
     known = [
-        Entry("K0", number(e.values[K0].best), " # FROM CPT"),
+        Entry("K0", f"{e.values[K0].best:.4g}", " # FROM CPT"),
         Entry(density_law.DENSEST, f"{densest:g}", why),
         Entry(density_law.LOOSEST, f"{loosest:g}", why),
         Entry(
@@ -156,7 +151,7 @@ def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
     if e is found.layers[-1]:  # goes on below the test
         points.append((GOES_ON * deep, GOES_ON * stress))
     low = value_of(e, STRENGTH, "low")
-    text = clay.held(float(number(e.values[K0].best)), low, points)
+    text = clay.held(float(f"{e.values[K0].best:.4g}"), low, points)
     within = "" if "s" not in text else ", within what the low strength bears"
     return Entry("K0", text, f" # FROM CPT{within}")
 

@@ -244,18 +244,15 @@ def head_of(text: str) -> tuple[float, str]:
     return top, rest
 
 
-def as_given(_: float, texts: dict[str, str]) -> Given:
-    """Return what is given of a layer, as it is."""
-    return texts, {}
-
-
 def layer_of(
-    text: str, known: Mapping[str, str], law: str, change: Change = as_given
+    text: str, known: Mapping[str, str], law: str, change: Change | None = None
 ) -> Layer:
     """Return a layer. known: the units of all entries of a layer by their names; law:
     of sand by its density, a name of sand.LAWS. Raises SuggestError."""
     top, rest = head_of(text)
-    texts, factors = change(top, texts_in(rest, known))
+    texts, factors = texts_in(rest, known), dict[str, float]()
+    if change:
+        texts, factors = change(top, texts)
     given = values_in(texts, known, factors)
     as_cohesion = {"Cohesion": given[STRENGTH]} if STRENGTH in given else {}
     refuse_implausible({**given, **as_cohesion}, known)
@@ -435,7 +432,10 @@ def entries_of(given: dict[str, str], text: str) -> list[Entry]:
 
 
 def layers_of(
-    texts: Iterable[str], known: Mapping[str, str], law: str, change: Change = as_given
+    texts: Iterable[str],
+    known: Mapping[str, str],
+    law: str,
+    change: Change | None = None,
 ) -> list[Layer]:
     """Return all layers. law: of sand by its density; change: what is given of each of
     them, before it is read. Raises SuggestError."""

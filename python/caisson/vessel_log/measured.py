@@ -26,8 +26,6 @@ from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import LEAST_NOISE, Bins
 from caisson.terminal import printable
 
-TABLE = Path(__file__).with_name("quantities.toml")
-
 
 class Quantity(NamedTuple):
     """A column: its units as factors, that without one ("" for none: it is refused),
@@ -44,14 +42,9 @@ class Quantity(NamedTuple):
         return {plain(name): x for name, x in self.units.items()}.get(unit)
 
 
-def quantities_of(path: Path) -> dict[str, Quantity]:
-    """Return what a table of quantities and units has, by name."""
-    table = tomllib.loads(path.read_text(encoding="utf-8"))
-    kinds = table.pop("units")
-    return {k: Quantity(**q | {"units": kinds[q["units"]]}) for k, q in table.items()}
-
-
-QUANTITIES = quantities_of(TABLE)
+FILE = tomllib.loads(Path(__file__).with_name("quantities.toml").read_text("utf-8"))
+UNITS = FILE.pop("units")
+QUANTITIES = {k: Quantity(**q | {"units": UNITS[q["units"]]}) for k, q in FILE.items()}
 EXAMPLE = "time_s, depth_m, suction_kPa, flow_m3/h, tilt_deg, weight_kN"
 SHARE = 0.01  # of the way: the length of a step
 NEEDED = {"depth", "suction", "weight", "resistance"}  # if there, to be understood

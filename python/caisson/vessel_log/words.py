@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a log means, in sentences: where it leaves the band, what fits it, and how far
 the caisson goes."""
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
@@ -52,14 +53,12 @@ def outside(expected: Expected, bins: Bins) -> list[tuple[str, float, float]]:
     )
     where = np.where(bins.resistance * (1 - bins.error) > high, 1, 0)
     where[bins.resistance * (1 + bins.error) < low] = -1
-    ends = np.flatnonzero(np.diff(where)) + 1
     found = []
-    for rows in np.split(np.arange(len(where)), ends):
-        if where[rows[0]] and len(rows) >= FEWEST:
-            name = "above the high" if where[rows[0]] > 0 else "below the low"
-            found.append(
-                (name, float(bins.depth[rows[0]]), float(bins.depth[rows[-1]]))
-            )
+    for side, rows in groupby(range(len(where)), lambda i: int(where[i])):
+        depth = bins.depth[list(rows)]
+        if side and len(depth) >= FEWEST:
+            name = "above the high" if side > 0 else "below the low"
+            found.append((name, float(depth[0]), float(depth[-1])))
     return found
 
 
