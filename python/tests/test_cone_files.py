@@ -346,7 +346,7 @@ class Ags(WithFiles):
             assert test.friction is not None and test.pore_pressure is not None
             np.testing.assert_allclose(test.friction, [5e3, 12.5e3, 20e3])
             self.assertEqual("units of AGS 4" not in str(test.remarks), units)
-            self.assertFalse(cone_file.is_plain(self.path))
+            self.assertFalse(test.is_plain)
         two = "\n".join([*group, OTHER.replace('"', "")])
         self.refused(two, "2 tests: CPT01, CPT02; choose one by --location")
         self.assertEqual(self.read(two, "CPT02").resistance[0], 9e6)

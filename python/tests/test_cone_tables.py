@@ -262,7 +262,7 @@ class Workbooks(WithFiles):
         self.assertEqual(
             len(cone_file.read(self.path, how=How(sheet="CPT 1")).depth), 2
         )
-        self.assertFalse(cone_file.is_plain(self.path))
+        self.assertFalse(test.is_plain)
         book["CPT 1"]["B4"] = "=1+1"  # whose value no spreadsheet program has stored
         book.save(self.path)
         with self.assertRaisesRegex(InputError, "row 4 of sheet CPT 1: a formula"):

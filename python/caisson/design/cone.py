@@ -149,7 +149,7 @@ def adopt(path: Path, directory: Path, how: How = How()) -> tuple[str, ...]:
     if not directory.is_dir():
         raise InputError(f"no directory {directory}")
     target = directory / NAME
-    if cone_file.is_plain(path, how) and not test.was_zeroed:
+    if test.is_plain and not test.was_zeroed:
         disk.keep(target, disk.read_bytes(path))
     else:
         disk.keep(target, cone_file.text_of(test))

@@ -41,7 +41,9 @@ class Test:
     net area ratio of the cone, None where the file has none; the depth (m) above which
     rows were not measured, with how they are known ("ASSUMED" or "GIVEN"); whether the
     resistance is q_t, which has the pore pressure in it; top and bottom (m) of the gaps
-    between rows; and whether readings were set to 0 on deck, and are no more."""
+    between rows; whether readings were set to 0 on deck, and are no more; and whether
+    the file is a table of text that begins with its heads, so that any command reads it
+    without an option."""
 
     depth: np.ndarray
     resistance: np.ndarray
@@ -54,6 +56,7 @@ class Test:
     is_corrected: bool = False
     gaps: tuple[tuple[float, float], ...] = ()
     was_zeroed: bool = False
+    is_plain: bool = False
 
 
 # ---------------------------------------------------------------- the table
@@ -109,7 +112,9 @@ def table_of(path: Path, content: bytes, how: How) -> Table:
     if content.startswith(ARCHIVE):
         rows = cone_grid.grid_of_workbook(path, how.sheet, bool(how.columns))
         with naming(path):
-            return table_of_grid(rows, None, how, "a workbook")
+            found = table_of_grid(rows, None, how, "a workbook")
+            found.begins_with_heads = False
+            return found
     lines = lines_of(path, content)
     with naming(path):
         if form := format_of(lines):
@@ -131,19 +136,6 @@ def table_of_grid(rows: Rows, divider: str | None, how: How, form: str) -> Table
         return found
     refuse_options(how, f"{sheet}columns", form)
     return cone_grid.table(rows, divider, how.columns)
-
-
-def is_plain(path: Path, how: How = How()) -> bool:
-    """Return whether a file is a table of text that begins with its heads, so that any
-    command reads it without an option."""
-    content = content_of(path)
-    if any(how) or content.startswith(ARCHIVE):
-        return False
-    lines = lines_of(path, content)
-    rows = cone_grid.grid_of_text(lines)[0]
-    if format_of(lines) or cone_formats.is_ags_group(rows):
-        return False
-    return cone_grid.heads_in(rows) == 0
 
 
 # --------------------------------------------------------------- the values
@@ -225,6 +217,7 @@ def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
         found.tip_name == "qt",
         gaps,
         was_zeroed,
+        table.begins_with_heads and not any(how),
     )
 
 

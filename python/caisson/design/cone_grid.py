@@ -320,4 +320,6 @@ def table(rows: Rows, divider: str | None, columns: str) -> Table:
             " kPa"
         )
     advice = f"heads that are read are {EXAMPLE} and their like"
-    return Table(heads, rows[begin:], where, advice, facts, said)
+    found = Table(heads, rows[begin:], where, advice, facts, said)
+    found.begins_with_heads = place == 0
+    return found

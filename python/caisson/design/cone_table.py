@@ -59,7 +59,8 @@ class Table:
 
     units_are: where the units stand; advice: how the file would name depth and cone
     resistance; pushes: the name of the push of each row, where a test has several;
-    is_register: whether the rows have no order, and the columns always are the same.
+    is_register: whether the rows have no order, and the columns always are the same;
+    begins_with_heads: whether it is a text that does.
     """
 
     heads: Sequence[Head]
@@ -70,6 +71,7 @@ class Table:
     remarks: list[str] = field(default_factory=list)
     pushes: Sequence[str] = ()
     is_register: bool = False
+    begins_with_heads: bool = False
 
 
 @contextlib.contextmanager

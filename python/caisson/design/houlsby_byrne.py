@@ -214,8 +214,7 @@ class Caisson:
 
     def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
         """Return the friction on both walls and the force on the tip."""
-        tip, inside, outside = self.forces(h, enhanced, seepage)
-        return outside + inside + tip
+        return self.forces(h, enhanced, seepage).total
 
 
 class Assumptions(NamedTuple):

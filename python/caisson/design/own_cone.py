@@ -43,24 +43,21 @@ DEEP = 1.07  # m, 30 diameters, above which a cone is not deep
 
 
 @lru_cache
-def table() -> tuple[RegularGridInterpolator, tuple[np.ndarray, ...]]:
-    """Return what interpolates ln q_c (Pa), and its axes: D_r, ln p (Pa), ln ratio."""
+def table() -> RegularGridInterpolator:
+    """Return what interpolates ln q_c (Pa) over D_r, ln p (Pa) and ln ratio."""
     rows = np.loadtxt(FILE, delimiter=",", skiprows=1)  # in the order of AXES
     density, stress, ratio = (np.unique(column) for column in rows.T[:3])
     axes = density, np.log(1e3 * stress), np.log(ratio)
     grid = np.log(1e6 * rows[:, 3]).reshape([len(axis) for axis in axes])
     # bounds_error and fill_value: it goes on beyond the table
-    return (
-        RegularGridInterpolator(axes, grid, bounds_error=False, fill_value=None),
-        axes,
-    )
+    return RegularGridInterpolator(axes, grid, bounds_error=False, fill_value=None)
 
 
 def computed(density: Any, stress: Any, ratio: Any) -> np.ndarray:
     """Return the resistance (Pa) that a computed cone meets. stress: mean effective
     (Pa); ratio: of the modulus to that by density; all of forms that fit."""
     where = np.broadcast_arrays(density, np.log(stress), np.log(ratio))
-    return np.asarray(np.exp(table()[0](np.stack(where, axis=-1))))
+    return np.asarray(np.exp(table()(np.stack(where, axis=-1))))
 
 
 def answers(
@@ -97,6 +94,6 @@ def is_deep(depth: np.ndarray) -> np.ndarray:
 
 def is_known(density: float, stress: float) -> bool:
     """Return whether cones were computed about this density and mean stress (Pa)."""
-    axes = table()[1]
-    inside = axes[1][0] <= np.log(stress) <= axes[1][-1]
-    return bool(inside and axes[0][0] <= density <= axes[0][-1])
+    shares, stresses, _ = table().grid
+    inside = stresses[0] <= np.log(stress) <= stresses[-1]
+    return bool(inside and shares[0] <= density <= shares[-1])
