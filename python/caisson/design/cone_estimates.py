@@ -139,12 +139,6 @@ def growth_in(ground: Ground, layer: Layer, values: np.ndarray) -> float:
     return gradient / (middle - gradient * thick / 2)
 
 
-def along(ground: Ground, layer: Layer, growth: float) -> np.ndarray:
-    """Return what values of a growth are multiplied with at the depth of each row [n]
-    of the test, 1 at the top of the layer."""
-    return np.asarray(1 + growth * (ground.depth - layer.top))
-
-
 # ground, names of correlations and an end to the values of a quantity [n]; K_0 of sand
 # is high where the friction angle is low, and E of clay and silt is a multiple of the
 # best strength
@@ -206,7 +200,7 @@ def estimates_of(
         for name in HAS[layer.kind]:
             growth = slope if name in OF_STRENGTH else 0.0
             rows = of_density if name in OF_CONE else layer.rows
-            share = along(ground, layer, growth)[rows]
+            share = 1 + growth * (ground.depth[rows] - layer.top)  # of that at the top
             low, best, high = [x[rows] / share for x in every[layer.kind, name]]
             found_here = combined(best, low, high, LIMITS.get(name, ANY))
             values[name] = replace(found_here, growth=growth)

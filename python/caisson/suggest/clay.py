@@ -24,7 +24,7 @@ import numpy as np
 
 from caisson import density_law as names
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER
-from caisson.suggest.entry import ASSUMPTION, Entry, Layer
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, number_in
 from caisson.design.correlations import CLAY_POISSON, CLAY_RATIOS
 from caisson.design.correlations import RESTS_OF_CLAY
 from caisson.design.expression import value_at
@@ -51,11 +51,8 @@ def is_undrained(layer: Layer) -> bool:
 
 def modulus_of(strength: str) -> Entry:
     """Return Youngs modulus for a strength (Pa)."""
-    ratio = CLAY_RATIOS[1]
-    try:
-        value = f"{ratio * float(strength):.10g}"
-    except ValueError:
-        value = f"{ratio:g}*({strength})"
+    ratio, number = CLAY_RATIOS[1], number_in(strength)
+    value = f"{ratio:g}*({strength})" if number is None else f"{ratio * number:.10g}"
     return Entry("Youngs modulus", value, MODULUS_REMARK)
 
 

@@ -108,38 +108,22 @@ def void_ratios_of(e: Estimates) -> tuple[float, float]:
     return round(densest + shift, 4), round(loosest + shift, 4)
 
 
-def of_density(e: Estimates, end: str) -> dict[str, str]:
-    """Return the entries of low, best or high density of sand, by their names."""
-    share, (densest, loosest) = f"{e.values[DENSITY].at(end):.4g}", void_ratios_of(e)
-    start = loosest - (loosest - densest) * float(share)
-    return {
-        density_law.DENSITY: share,
-        density_law.MODULUS: f"{e.values[REFERENCE].at(end):.4g}",
-        density_law.REFERENCE_VOID_RATIO: f"{start:.6g}",
-    }
-
-
 def sand_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
-    """Return the entries of sand whose strength follows from its density. Relative
-    density, unit weight and modulus are those of the test."""
-    values, (densest, loosest) = of_density(e, end), void_ratios_of(e)
+    """Return the entries of sand whose strength follows from its density, low, best or
+    high. Relative density, unit weight and modulus are those of the test."""
+    share, modulus = (f"{e.values[x].at(end):.4g}" for x in (DENSITY, REFERENCE))
+    densest, loosest = void_ratios_of(e)
+    start = loosest - (loosest - densest) * float(share)
     why = f"{ASSUMPTION}: the range of Karlsruhe sand, about the unit weight FROM CPT"
-    start = density_law.REFERENCE_VOID_RATIO
     known = [
         Entry("K0", f"{e.values[K0].best:.4g}", " # FROM CPT"),
         Entry(density_law.DENSEST, f"{densest:g}", why),
         Entry(density_law.LOOSEST, f"{loosest:g}", why),
-        Entry(
-            density_law.MODULUS,
-            values[density_law.MODULUS],
-            remark(found, e, REFERENCE),
-        ),
-        Entry(start, values[start], sand.OF_START),
+        Entry(density_law.MODULUS, modulus, remark(found, e, REFERENCE)),
+        Entry(density_law.REFERENCE_VOID_RATIO, f"{start:.6g}", sand.OF_START),
     ]
-    share = Entry(
-        density_law.DENSITY, values[density_law.DENSITY], remark(found, e, DENSITY)
-    )
-    return sand.entries_of(share, density_law.LAW, known)
+    density = Entry(density_law.DENSITY, share, remark(found, e, DENSITY))
+    return sand.entries_of(density, density_law.LAW, known)
 
 
 def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
@@ -156,9 +140,12 @@ def at_rest_of(found: Interpretation, e: Estimates) -> Entry:
     return Entry("K0", text, f" # FROM CPT{within}")
 
 
-def strength_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
-    """Return law, strength and stiffness of clay, and of silt below the skirt, which
-    are undrained."""
+def entries_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
+    """Return the entries of a layer: low, best or high density or strength, and
+    stiffness, and what all have in common. Clay, and silt below the skirt, are
+    undrained."""
+    if e.layer.kind == SAND:
+        return sand_of(found, e, end)
     return [
         Entry("Law", ASSUMED["Law"]),
         Entry("Friction angle", "0", f" # {e.layer.kind}, undrained"),
@@ -168,16 +155,6 @@ def strength_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
         at_rest_of(found, e),
         Entry("Friction angle of the walls", "0"),
         ADHESION_OF_CLAY,
-    ]
-
-
-def entries_of(found: Interpretation, e: Estimates, end: str) -> list[Entry]:
-    """Return the entries of a layer: low, best or high density or strength, and
-    stiffness, and what all have in common."""
-    if e.layer.kind == SAND:
-        return sand_of(found, e, end)
-    return [
-        *strength_of(found, e, end),
         Entry("Dilatancy angle", ASSUMED["Dilatancy angle"], ASSUMPTION),
         Entry("Porosity", f"{e.porosity():.3f}", remark(found, e, WEIGHT)),
         Entry("Solid density", f"{QUARTZ_DENSITY:g}", ASSUMPTION),

@@ -11,6 +11,14 @@ class SuggestError(InputError):
     """What is wrong with what was given; the text is for the user."""
 
 
+def number_in(text: str) -> float | None:
+    """Return the number that a text is, None of an expression."""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
 @dataclass(frozen=True)
 class Entry:
     """An entry of a layer; remark says in the file where it comes from."""

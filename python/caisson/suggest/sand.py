@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 
 from caisson import density_law as names
 from caisson.units import GRAVITY, QUARTZ_DENSITY, WATER_DENSITY
-from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError
+from caisson.suggest.entry import ASSUMPTION, Entry, SuggestError, number_in
 from caisson.design.density import ATMOSPHERE, CRITICAL_ANGLE, density_of_angle
 from caisson.design.density import reference_modulus
 
@@ -65,9 +65,7 @@ def density_of_word(text: str) -> Entry:
 
 def density_of_number(text: str) -> Entry:
     """Return a relative density that is given. Raises SuggestError."""
-    try:
-        value = float(text)
-    except ValueError:
+    if (value := number_in(text)) is None:
         value = -1.0
     if 1 < value <= 100:
         hint = f". Did you mean {value / 100:g}?" if value >= LEAST_PERCENT else ""
@@ -130,9 +128,7 @@ def entries_of(density: Entry, law: str, known: Iterable[Entry]) -> list[Entry]:
 def modulus_of(angle: str) -> Entry | None:
     """Return Youngs modulus of sand that is given by its friction angle (degrees), by
     the density that the design methods take for it; None for an expression."""
-    try:
-        degrees = float(angle)
-    except ValueError:
+    if (degrees := number_in(angle)) is None:
         return None
     density = float(density_of_angle(degrees, ATMOSPHERE, ATMOSPHERE))
     modulus = f"{reference_modulus(density):.3g}"
@@ -143,10 +139,9 @@ def modulus_of(angle: str) -> Entry | None:
 def at_rest(angle: str) -> list[Entry]:
     """Return K0 for a critical angle (degrees); nothing for an expression, whose K0 the
     program finds."""
-    try:
-        k0 = 1 - math.sin(math.radians(float(angle)))
-    except ValueError:
+    if (degrees := number_in(angle)) is None:
         return []
+    k0 = 1 - math.sin(math.radians(degrees))
     why = f"{ASSUMPTION}: 1 - sin {angle} (Jaky 1948); an old sea bed may have 1"
     return [Entry("K0", f"{k0:.2g}", why)]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 
 from caisson import density_law as names
 from caisson.units import QUARTZ_DENSITY
-from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError, number_in
 from caisson.suggest import clay, sand
 from caisson.design import expression, quantity
 from caisson.design.ground import porosity_of
@@ -209,20 +209,15 @@ def values_in(
 
     def value(name: str) -> str:
         found = value_of(name, texts[name], known, symbols)
-        return times(factors[name], found) if name in factors else found
+        if (factor := factors.get(name)) is None:
+            return found
+        number = number_in(found)
+        return f"{factor:.6g}*({found})" if number is None else f"{factor * number:.6g}"
 
     if STRENGTH in texts:  # other entries may be multiples of it
         strength = value(STRENGTH)
         symbols = {s: strength for s, n in DERIVED.items() if n == STRENGTH}
     return {name: value(name) for name in texts}
-
-
-def times(factor: float, value: str) -> str:
-    """Return a number, or an expression, times a factor."""
-    try:
-        return f"{factor * float(value):.6g}"
-    except ValueError:
-        return f"{factor:.6g}*({value})"
 
 
 def head_of(text: str) -> tuple[float, str]:

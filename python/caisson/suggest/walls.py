@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from caisson.design import shell
 from caisson.suggest import clay, sand
-from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError
+from caisson.suggest.entry import ASSUMPTION, Entry, Layer, SuggestError, number_in
 from caisson.suggest.sizes import Body
 from caisson.suggest.soil import LEAST_DRAINED, NGI_ADP
 
@@ -40,10 +40,7 @@ def is_clay(layer: Layer) -> bool:
 def is_quick_clay(layer: Layer) -> bool:
     """Return whether strength is that of clay in a quick test, a cohesion with a small
     angle: drained soil has a larger one."""
-    try:
-        angle, cohesion = float(angle_of(layer)), layer.value("Cohesion")
-    except ValueError:
-        return False
+    angle, cohesion = number_in(angle_of(layer)) or 0.0, layer.value("Cohesion")
     return 0 < angle < LEAST_DRAINED and cohesion not in ("", "0")
 
 
@@ -59,10 +56,8 @@ def friction_of(layer: Layer) -> Entry:
             f"the soil from {layer.top:g} m has no friction angle from which that of"
             " the walls would follow: give --wall-friction"
         )
-    try:
-        value = f"{2 / 3 * float(angle):.3g}"
-    except ValueError:
-        value = f"2/3*({angle})"
+    number = number_in(angle)
+    value = f"2/3*({angle})" if number is None else f"{2 / 3 * number:.3g}"
     return Entry(FRICTION, value, f"{ASSUMPTION}: 2/3 of the friction angle")
 
 
