@@ -23,8 +23,24 @@ stress sigma_j = sqrt(sigma_a^2 - sigma_a sigma_h + sigma_h^2) follow
 
 and gamma_M from 1.15 (lambda < 0.5) to 1.45 (lambda > 1). rho holds for walls within
 the tolerances that the practice refers to (DNV-OS-C401); there are no classes of them.
-The row for lateral pressure is taken, as the axial stress counts on its own. Rings of
-the scene divide the wall as long as they meet the demands of design/rings.
+The row for lateral pressure is taken, as the axial stress counts on its own.
+
+A ring inside the wall, a flat bar of width w and height b, divides the part that
+buckles (October 2010, formulas from secondary sources) if it has the area
+
+    A >= (2 / Z^2 + 0.06) l t,              Z = l^2 / (r t) sqrt(1 - nu^2),
+
+l the mean of the lengths on both sides, and, with the part of the wall that helps it,
+l_ef = 1.56 sqrt(r t) / (1 + 12 t / r) <= l, the moment of inertia
+
+    I >= sigma_a t r_0^4 / (500 E l)
+       + p r r_0^2 l / (3 E) (1.5 + 3 E z_t 0.005 r / (r_0^2 (f_y / 2 - sigma_hR))).
+
+r_0 is the radius of the centroid of both, z_t the distance from it to the inner edge of
+the ring, and sigma_hR = (p r / t - nu sigma_a) / (1 + A / (l_e0 t)) r / (r - t/2 - w)
+the hoop stress of this edge; l_e0 = l / beta (cosh 2 beta - cos 2 beta) / (sinh 2 beta
++ sin 2 beta), beta = l / (1.56 sqrt(r t)). f_y counts in full, as the flat bar does not
+trip, if w <= 0.4 b sqrt(E / f_y). Shear and wall stiffeners along the axis are none.
 
 p is the suction above the mudline. Below it, it is the difference of the normal stress
 with the pore pressure outside and inside that a run computed (wall.csv); the mean over
@@ -33,20 +49,33 @@ wall buckles. SI units, but for columns; depths are below the mudline.
 """
 from collections.abc import Callable, Sequence
 from itertools import chain, combinations
-from math import inf, pi, sqrt
+from math import cos, exp, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-from caisson.design.rings import Ring, Shell
 from caisson.results import Results, Table
 
 POISSON_RATIO = 0.3
+OUT_OF_ROUND = 0.005  # of the radius
 LONG, OF_LONG = 2.25, 0.25
 MANY = 1e6  # of a check, in place of infinity
 Check = Callable[..., float]
 SIDES = ("outer", "inner")
+
+
+class Ring(NamedTuple):
+    """Its middle below the lid, its width towards the axis, and its height (m)."""
+
+    below_lid: float
+    width: float
+    height: float
+
+    @property
+    def area(self) -> float:
+        """The area of its section (m2)."""
+        return self.width * self.height
 
 
 class Wall(NamedTuple):
@@ -123,6 +152,73 @@ def unity_check(wall: Wall, length: float, pressure: float, axial: float) -> flo
     return stress / strength
 
 
+def needed_area(wall: Wall, length: float) -> float:
+    """Return the area that a ring needs (m2). length: the mean of the lengths on both
+    sides of it (m), as below."""
+    r, t, nu = wall.radius, wall.thickness, POISSON_RATIO
+    z = length**2 / (r * t) * sqrt(1 - nu**2)
+    return (2 / z**2 + 0.06) * length * t
+
+
+def section(wall: Wall, length: float, ring: Ring) -> tuple[float, float]:
+    """Return the moment of inertia of a ring with its part of the wall (m4), and how
+    far the centroid lies within the middle of the wall (m)."""
+    r, t = wall.radius, wall.thickness
+    plate = t * min(1.56 * sqrt(r * t) / (1 + 12 * t / r), length)
+    arm = (t + ring.width) / 2
+    inward = ring.area * arm / (ring.area + plate)
+    own = (ring.area * ring.width**2 + plate * t**2) / 12
+    return own + ring.area * (arm - inward) ** 2 + plate * inward**2, inward
+
+
+def edge_stress(
+    wall: Wall, length: float, ring: Ring, pressure: float, along: float
+) -> float:
+    """Return the hoop stress of the inner edge of a ring (Pa) under a pressure from
+    outside and an axial stress (Pa)."""
+    r, t = wall.radius, wall.thickness
+    beta = length / (1.56 * sqrt(r * t))
+    down = exp(-4 * beta)  # over cosh and sinh, times 2 exp(-2 beta)
+    high = 1 + down - 2 * exp(-2 * beta) * cos(2 * beta)
+    low = 1 - down + 2 * exp(-2 * beta) * sin(2 * beta)
+    beside = length / beta * high / low
+    hoop = pressure * r / t - POISSON_RATIO * along
+    return hoop / (1 + ring.area / (beside * t)) * r / (r - t / 2 - ring.width)
+
+
+def needed_inertia(
+    wall: Wall, length: float, ring: Ring, pressure: float, axial: float
+) -> float:
+    """Return the moment of inertia that a ring needs (m4) under a pressure from outside
+    (Pa) and an axial force of compression (N); infinite where its edge yields."""
+    r, t, e = wall.radius, wall.thickness, wall.youngs_modulus
+    along = axial / (2 * pi * r * t)
+    stress = edge_stress(wall, length, ring, pressure, along)
+    left = wall.yield_strength / 2 - abs(stress)
+    if left <= 0:
+        return inf
+    _, inward = section(wall, length, ring)
+    r_0, edge = r - inward, t / 2 + ring.width - inward
+    bent = 3 * e * edge * OUT_OF_ROUND * r / (r_0**2 * left)
+    axially = max(along, 0.0) * t * r_0**4 / (500 * e * length)
+    by_pressure = max(pressure, 0.0) * r * r_0**2 * length / (3 * e) * (1.5 + bent)
+    return axially + by_pressure
+
+
+def demand(
+    wall: Wall, length: float, ring: Ring, pressure: float, axial: float
+) -> float:
+    """Return what a ring needs over what it has, the largest of area, moment of inertia
+    and slenderness: it divides the wall up to 1."""
+    slender = 0.4 * sqrt(wall.youngs_modulus / wall.yield_strength)
+    inertia = needed_inertia(wall, length, ring, pressure, axial)
+    return max(
+        needed_area(wall, length) / ring.area,
+        inertia / section(wall, length, ring)[0],
+        ring.width / (slender * ring.height),
+    )
+
+
 def check_at(
     wall: Wall, h: float, suction: float, weight: float, more: float = 0.0
 ) -> float:
@@ -139,14 +235,12 @@ def check_between(
     needs over what it has, if that is more: the least of any choice of stiffeners, as
     one that is too weak counts as none."""
     axial, pressure = weight + suction * wall.area_inside, suction + more
-    steel = wall.yield_strength, wall.youngs_modulus, POISSON_RATIO
 
     def check(rings: Sequence[Ring]) -> float:
         edges = [0.0, *(ring.below_lid for ring in rings), wall.buckling_length(h)]
         found = [unity_check(wall, float(max(np.diff(edges))), pressure, axial)]
         for above, ring, below in zip(edges, rings, edges[2:]):
-            near = Shell(wall.radius, wall.thickness, (below - above) / 2, *steel)
-            found.append(near.demand(ring, pressure, axial))
+            found.append(demand(wall, (below - above) / 2, ring, pressure, axial))
         return max(found)
 
     rings = wall.stiffeners_at(h)

@@ -17,7 +17,6 @@ import numpy as np
 
 from caisson import curves
 from caisson.design import plug_stability, shell
-from caisson.design.rings import Ring
 from caisson import evaluation
 from caisson.evaluation import DEPTH, HEAVE, at_depths, pump_limit
 from caisson.verdict import suction_methods, theory
@@ -146,7 +145,7 @@ def wall_of(run: Results) -> shell.Wall | None:
     steel = strength, modulus, fixity, spacing or inf
     rings = run.parts_of_wall("ring", "above_tip", "width", "height")
     stiffeners = tuple(
-        Ring(length - place - height / 2, width, height)
+        shell.Ring(length - place - height / 2, width, height)
         for place, width, height in reversed(rings)
     )
     return shell.Wall(outer, thinnest, length, *steel, stiffeners)
