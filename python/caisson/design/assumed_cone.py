@@ -17,6 +17,7 @@ import numpy as np
 
 from caisson.design import density
 from caisson.design.cone import Profile
+from caisson.design.method import vertical_stress
 from caisson.template import ends
 
 SOURCE = "Jamiolkowski et al. (2003)"
@@ -46,16 +47,11 @@ class SandGround:
 
     def layer_at(self, z: float) -> Sand:
         """Return the layer at a depth."""
-        return [x for x in self.layers if x.top <= z or x.top <= 0][-1]
+        return [x for x in self.layers if x.top <= z][-1]
 
     def stress_at(self, z: float) -> float:
         """Return the effective vertical stress."""
-        tops = [layer.top for layer in self.layers] + [np.inf]
-        found = sum(
-            layer.unit_weight * max(min(z, bottom) - layer.top, 0.0)
-            for layer, bottom in zip(self.layers, tops[1:])
-        )
-        return max(found, LEAST_STRESS)
+        return max(vertical_stress(self.layers, z), LEAST_STRESS)
 
     def mean_stress_at(self, z: float) -> float:
         """Return the effective mean stress."""
@@ -89,14 +85,14 @@ class SandGround:
 
 def words(ground: SandGround, rows: np.ndarray, deepest: float) -> str:
     """Return what is assumed of ground at depths [n] (m), in sentences."""
-    layers = [x for x in ground.layers if x.top < deepest or x.top <= 0]
+    layers = [x for x in ground.layers if x.top < deepest]
     by_layer = []
     for layer, bottom in zip(layers, [*(x.top for x in layers[1:]), deepest]):
         top = max(layer.top, 0.05 * deepest)  # without what is close to the mudline
         found = [ground.density_at(z) for z in rows if top < z < bottom]
         if found and not layer.is_clay:
             text = ends([100 * min(found), 100 * max(found)], ".0f")
-            by_layer.append(f"{text} % from {max(layer.top, 0):g} m")
+            by_layer.append(f"{text} % from {layer.top:g} m")
     layers = [x for x in layers if not x.is_clay]
     from_angle = [x for x in layers if x.density is None]
     source = "from the friction angle by Bolton (1986)"

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.design.cone import Skirt
-from caisson.design.method import Forces
+from caisson.design.method import Forces, between, vertical_stress
 
 CASES = ("strip", "circle")
 THIN, ALIKE = 1.0, 0.3  # m, and of s_u: parts of a profile
@@ -76,13 +76,9 @@ class Clay:
 
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
-        bottoms = [layer.top for layer in self.layers[1:]] + [inf]
-        stress = inner = outer = 0.0
-        for layer, bottom in zip(self.layers, bottoms):
-            thickness = max(min(bottom, h) - layer.top, 0.0)
-            stress += layer.unit_weight * thickness
-            inner += layer.inner_adhesion * thickness
-            outer += layer.outer_adhesion * thickness
+        adhesions = [(x.inner_adhesion, x.outer_adhesion) for x in self.layers]
+        inner, outer = map(float, between(self.layers, 0.0, h) @ np.array(adhesions))
+        stress = vertical_stress(self.layers, h)
         strength = strength_at(self.layers, h)
         return Forces(
             self.skirt.tip_area * (stress + N_C[case] * strength),

@@ -128,9 +128,9 @@ def table_of_grid(rows: Rows, divider: str | None, how: How, form: str) -> Table
     """Return the table of rows of cells, which may be the group SCPT of AGS 4. form:
     of the file, in words. Raises InputError."""
     sheet = "sheet " if form == "a workbook" else ""
-    if not how.columns and cone_formats.is_ags_group(rows):
+    group, said = cone_formats.group_of_table([] if how.columns else rows)
+    if group:
         refuse_options(how, f"{sheet}location", f"{form} with a group of AGS 4")
-        group, said = cone_formats.group_of_table(rows)
         found = cone_formats.ags({"SCPT": group}, how.location)
         found.remarks += said
         return found

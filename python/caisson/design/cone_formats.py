@@ -187,15 +187,13 @@ def gef(lines: Sequence[str], _: str) -> Table:
 # ------------------------------------------------------------------- AGS 4
 
 
-def is_ags_group(rows: Rows) -> bool:
-    """Return whether a table is the group SCPT: a row has headings of AGS 4."""
-    return any(DEPTH in cells for _, cells in rows[:MOST])
-
-
 def group_of_table(rows: Rows) -> tuple[Rows, list[str]]:
     """Return the group SCPT of a table with its headings, as programs write it, with
-    the rows HEADING, UNIT and DATA, and in words what is assumed."""
-    place = next(i for i, (_, cells) in enumerate(rows) if DEPTH in cells)
+    the rows HEADING, UNIT and DATA, and in words what is assumed; no rows of another
+    table."""
+    places = (i for i, (_, cells) in enumerate(rows[:MOST]) if DEPTH in cells)
+    if (place := next(places, None)) is None:
+        return [], []
     row, heads = rows[place]
     if heads[0] == "HEADING":
         return rows[place:], []

@@ -8,7 +8,11 @@ highest, or the ends of a range of coefficients.
 
 SI units; forces are those of the whole circumference, upward positive.
 """
-from typing import NamedTuple, Protocol
+from collections.abc import Sequence
+from math import inf
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
 
 
 class Forces(NamedTuple):
@@ -32,3 +36,18 @@ class Method(Protocol):
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at the embedment h (m) of the tip in one of the cases;
         nan where the method has no answer at this embedment."""
+
+
+def between(layers: Sequence[Any], top: float, bottom: float) -> np.ndarray:
+    """Return how much of each layer, from the mudline down, is between two depths (m),
+    [n]."""
+    tops = np.array([layer.top for layer in layers])
+    bottoms = np.append(tops[1:], inf)
+    return np.maximum(np.minimum(bottoms, bottom) - np.maximum(tops, top), 0.0)
+
+
+def vertical_stress(layers: Sequence[Any], h: float) -> float:
+    """Return the effective vertical stress at rest at a depth (m) in layers with a unit
+    weight (Pa)."""
+    weights = np.array([layer.unit_weight for layer in layers])
+    return float(weights @ between(layers, 0.0, h))

@@ -37,13 +37,14 @@ clays. Proc. 7th ICSMFE, Mexico, 2, 45-51.
 SI units; h is the embedment of the tip (m), s is above the pressure of the open water.
 """
 from collections.abc import Sequence
-from math import inf, nan
+from math import nan
 from operator import itemgetter
 
 import numpy as np
 
 from caisson.design.clay import ALIKE, Layer, strength_at, tip_layer
 from caisson.design.cone import Skirt
+from caisson.design.method import between, vertical_stress
 
 REVERSE_BEARING = "reverse bearing of the plug"
 LIFT = "clay plug lifted by water below"
@@ -52,19 +53,6 @@ LIFT = "clay plug lifted by water below"
 def bearing_factor(h: float, diameter: float) -> float:
     """Return N_c of a circle at a depth."""
     return min(6 * (1 + 0.2 * h / diameter), 9.0)
-
-
-def between(layers: Sequence[Layer], top: float, bottom: float) -> np.ndarray:
-    """Return how much of each layer is between two depths (m), [n]."""
-    tops = np.array([layer.top for layer in layers])
-    bottoms = np.append(tops[1:], inf)
-    return np.maximum(np.minimum(bottoms, bottom) - np.maximum(tops, top), 0.0)
-
-
-def vertical_stress(layers: Sequence[Layer], h: float) -> float:
-    """Return the effective vertical stress at rest (Pa)."""
-    weights = np.array([layer.unit_weight for layer in layers])
-    return float(weights @ between(layers, 0.0, h))
 
 
 def adhesion(skirt: Skirt, layers: Sequence[Layer], h: float) -> float:

@@ -25,7 +25,8 @@ import numpy as np
 
 from caisson.design.clay import Layer, strength_at, tip_layer
 from caisson.design.cone import Skirt
-from caisson.design.plug_stability import reverse_bearing, vertical_stress
+from caisson.design.method import vertical_stress
+from caisson.design.plug_stability import reverse_bearing
 from caisson.design.sealing import grout_pressure
 from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.shell import Wall

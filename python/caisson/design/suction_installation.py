@@ -33,7 +33,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from caisson.design.houlsby_byrne import Caisson, Seepage
-from caisson.design.method import Forces
+from caisson.design.method import Forces, vertical_stress
 from caisson.design.seepage import houlsby_byrne, pressure_factor, senders_randolph
 
 
@@ -141,9 +141,7 @@ def required_suction(
 
 def mean_unit_weight(caisson: Caisson, h: float) -> float:
     """Return the mean effective unit weight down to h, 0 at the surface."""
-    pieces = caisson.pieces(h)
-    stress = sum(layer.unit_weight * thickness for layer, thickness in pieces)
-    return stress / h if h > 0 else 0.0
+    return vertical_stress(caisson.layers, h) / h if h > 0 else 0.0
 
 
 def critical_suction(caisson: Caisson, h: float) -> float:

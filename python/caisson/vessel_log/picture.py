@@ -17,6 +17,7 @@ from caisson.vessel_log.forecast import Bins, Forecast
 from caisson.vessel_log.measured import Log, resistance_of
 from caisson.plot.suction import WHITE
 from caisson.plot.small import in_units, legend_below, over_depth, with_note
+from caisson.template import ends
 
 GRAY, RED, BLUE, ORANGE = "0.45", "#c0392b", "#2166ac", "#d95f02"
 MARGIN = 1.15  # of the largest suction of the lines
@@ -44,10 +45,8 @@ def draw_expected(axes: Axes, expected: Expected, most: float = 0.0) -> None:
         most = max(most, min(float(seen.max()), FAR * most))
     elif len(seen):
         factor, unit = expected.run.shown.factor("kPa"), expected.run.shown.name("kPa")
-        ends = " to ".join(
-            dict.fromkeys(f"{factor * x():.0f}" for x in (seen.min, seen.max))
-        )
-        text = f"allowable: {ends} {unit} ({name})"
+        text = ends([factor * seen.min(), factor * seen.max()], ".0f")
+        text = f"allowable: {text} {unit} ({name})"
         axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlim(0, MARGIN * most)
     axes.set_ylim(1.02 * max(expected.planned, depth[-1]), 0)
@@ -83,9 +82,9 @@ def draw(
     draw_expected(
         axes, expected, max(float(measured.max()), float(forecast.high.max()))
     )
-    depth, ends = forecast.depth, (forecast.low, forecast.high)
+    depth, sides = forecast.depth, (forecast.low, forecast.high)
     style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
-    axes.fill_betweenx(depth, *ends, label="forecast, nine in ten", **style)
+    axes.fill_betweenx(depth, *sides, label="forecast, nine in ten", **style)
     axes.plot(forecast.best, depth, "--", color=ORANGE, lw=1.5, label="forecast")
     readings = expected.suction(resistance_of(log, expected), forecast.weight)
     axes.plot(readings, log.depth, ".", color=BLUE, ms=2, alpha=0.35)
