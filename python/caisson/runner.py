@@ -245,8 +245,13 @@ class Run:
 
     def resume(self) -> None:
         """Let the run go on from the checkpoint of one that has not ended, if there is
-        one that the program accepts for these entries."""
-        if self.has_checkpoint and self.completion_record() is None:
+        one that the program accepts for these entries, and that is not of an earlier
+        installation."""
+        if (
+            self.has_checkpoint
+            and self.completion_record() is None
+            and not self.is_before_its_start(self.CHECKPOINT)
+        ):
             try:
                 query([*self.arguments(), "--restart", "--validate"], self.program)
             except RunError:
@@ -259,12 +264,25 @@ class Run:
         return (self.directory / self.CHECKPOINT).is_file()
 
     @functools.cached_property
+    def begins_from(self) -> Path | None:
+        """The directory of the installation that it goes on from, if it has one."""
+        before = self.in_effect.get(self.BEFORE)
+        return (WORK / before).resolve() if before else None
+
+    def is_before_its_start(self, name: str) -> bool:
+        """Return whether a file of results is older than the installation that it goes
+        on from, which then is another one."""
+        history = self.begins_from and self.begins_from / "history.csv"
+        if not history or not history.is_file():
+            return False
+        return (self.directory / name).stat().st_mtime < history.stat().st_mtime
+
+    @functools.cached_property
     def key(self) -> str:
         """A hash of what the result depends on. Raises RunError where the program
         refuses the input."""
         entries = {k: v for k, v in self.in_effect.items() if k not in self.BESIDE}
-        if before := entries.get(self.BEFORE):  # both may be moved together
-            place = (WORK / before).resolve()
+        if place := self.begins_from:  # both may be moved together
             where = os.path.relpath(place, self.directory.resolve())
             entries[self.BEFORE] = f"{where}: {content_of(place / 'history.csv')}"
         text = json.dumps([entries, self.ranks, digest(self.program)], sort_keys=True)
@@ -293,9 +311,10 @@ class Run:
             same = all(self.in_effect[k] == known[k] for k in names)
             files = self.directory / "run.json", self.program
             written, built = (file.stat().st_mtime for file in files)
+            is_earlier = written < built or self.is_before_its_start("run.json")
         except (RunError, OSError, LookupError, TypeError):
             return None
-        if summary.get("status") != "finished" or not same or written < built:
+        if summary.get("status") != "finished" or not same or is_earlier:
             return None
         found = dict.fromkeys(("wall_s", "cpu_s"), summary.get("wall_time_s", 0.0))
         found |= {"entries": self.entry_texts(), "status": Status.SUCCESS}

@@ -77,10 +77,7 @@ class Phases(ProgramTest):
 
         record = path / FOLDER / "run_key.json"
         before = json.loads(record.read_text(encoding="utf-8"))
-        record.unlink()
-        told = path / FOLDER / "run.json"
-        text = told.read_text(encoding="utf-8")
-        told.write_text(text.replace('"finished"', '"stopped"'), encoding="utf-8")
+        self.stop(path / FOLDER)
         text = self.run_phases(SUCCESS, path, **{phases.ENTRY: "retrieval to 0.52"})
         self.assertIn(f"{FOLDER}: goes on from its checkpoint", text)
         after = json.loads(record.read_text(encoding="utf-8"))
@@ -89,7 +86,8 @@ class Phases(ProgramTest):
     def test_after_an_installation(self) -> None:
         """An installation that the user has run is not repeated. A folder that was
         moved keeps what is complete in it. Phases of an earlier installation do not
-        stand for those of a new one, also where they set what it has changed."""
+        stand for those of a new one, also where they set what it has changed, and do
+        not go on after it."""
         path = self.directory()
         self.run_phases(SUCCESS, path, **{phases.ENTRY: ""})
         time = summary(path)["written"]
@@ -106,6 +104,18 @@ class Phases(ProgramTest):
         self.run_phases(SUCCESS, moved, "--overwrite", **words)
         text = self.run_phases(SUCCESS, moved, **damped)
         self.assertEqual(text.count("complete, and not repeated"), 1, text)
+        self.stop(moved / FOLDER)
+        (moved / "history.csv").touch()
+        text = self.run_phases(SUCCESS, moved, **damped)
+        self.assertNotIn("goes on from its checkpoint", text)
+
+    @staticmethod
+    def stop(phase: Path) -> None:
+        """Let a phase that is complete be one that was stopped."""
+        (phase / "run_key.json").unlink()
+        told = phase / "run.json"
+        text = told.read_text(encoding="utf-8")
+        told.write_text(text.replace('"finished"', '"stopped"'), encoding="utf-8")
 
     def test_band(self) -> None:
         """The best scene of a band has phases. They are refused before anything is run,

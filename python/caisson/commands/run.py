@@ -254,16 +254,15 @@ def run_band(arguments: list[str]) -> int:
     before anything is run. Return the exit status."""
     entries, chain = entries_of(arguments), None
     if run_several.phases_asked_for(arguments, entries):
-        words = [word for word in arguments if word != "--overwrite"]
-        chain = run_several.Chain(words, entries, None, None)
+        chain = run_several.Chain(arguments, entries, None, None)
         chain.refuse_way()
-    status, is_new = run_several.run_band(arguments, draw, reporting)
+    status = run_several.run_band(arguments, draw, reporting)
     if chain is None:
         return status
     if status != Status.SUCCESS:
         print("run: phases follow when all of the band is complete", file=sys.stderr)
         return status
-    return chain.main(try_to_draw, reporting, is_new)
+    return chain.main(try_to_draw, reporting, has_scene=True)
 
 
 def main(options: argparse.Namespace) -> int:

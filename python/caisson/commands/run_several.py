@@ -90,11 +90,9 @@ def scenes_of(best: Path) -> dict[str, Path]:
     return found
 
 
-def compute_band(
-    runs: dict[str, StudyRun], options: argparse.Namespace
-) -> list[StudyRun]:
-    """Compute what is missing, one core each; return those that were. Raises RunError
-    where the program refuses a run."""
+def compute_band(runs: dict[str, StudyRun], options: argparse.Namespace) -> None:
+    """Compute what is missing, one core each. Raises RunError where the program refuses
+    a run."""
     to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
     for member in to_do:
         if member.refusal:
@@ -104,18 +102,16 @@ def compute_band(
         text = what_becomes_of(member, member in to_do)
         print(f"run: {member.name}: {text}", flush=True)
     make(to_do, How(again=True, jobs=min(3, cores())))
-    return to_do
 
 
 def run_band(
     words: Sequence[str],
     draw: Callable[[Path, None, bool], None],
     reporting: Reporting,
-) -> tuple[int, bool]:
+) -> int:
     """Run a band and draw it, the best run last and in full; return the largest exit
-    status, and whether the best one was computed anew. words: the best scene, and
-    options of the program; draw: draws a run; reporting: renews the page of the best
-    one as long as it runs. Raises RunError."""
+    status. words: the best scene, and options of the program; draw: draws a run;
+    reporting: renews the page of the best one as long as it runs. Raises RunError."""
     best, options = Path(words[0]), options_of(words[1:])
     directory, runs = Run(best, options.set).directory, dict[str, StudyRun]()
     for estimate, scene in scenes_of(best).items():
@@ -125,10 +121,10 @@ def run_band(
         )
     with reporting(runs[BEST].run.directory):
         try:
-            made = compute_band(runs, options)
+            compute_band(runs, options)
         except KeyboardInterrupt:
             print("run: stopped; --restart resumes", file=sys.stderr)
-            return Status.STOPPED, False
+            return Status.STOPPED
     for estimate in (LOW, HIGH, BEST):
         if estimate in runs and runs[estimate].status is not None:
             draw(runs[estimate].run.directory, None, estimate == BEST)
@@ -136,7 +132,7 @@ def run_band(
         if member.trouble:
             text = f"{member.trouble}{hint_on(member)}"
             print(f"run: {member.name}: {text}", file=sys.stderr)
-    return max(map(status_of, runs.values())), runs[BEST] in made
+    return max(map(status_of, runs.values()))
 
 
 def phases_asked_for(words: Sequence[str], entries: Mapping[str, str]) -> list[Phase]:
@@ -197,15 +193,14 @@ class Chain:
             raise RunError(f"{error}; {AGAIN}") from error
         return self.member(name, self.directory / name, **entries)
 
-    def make(self, draw: Draw, reporting: Reporting, was_made: bool) -> Status:
+    def make(self, draw: Draw, reporting: Reporting, has_scene: bool) -> Status:
         """Compute what is missing; return the status of the last run."""
         member = self.member(self.scene.stem, self.directory)
         for number in range(1, len(self.phases) + 2):
             if number > 1:
                 member = self.phase(number, member.run.directory)
-            again = self.again or (was_made and number > 1)
-            is_new = compute(member, again, not was_made, reporting)
-            was_made = was_made or is_new
+            again = self.again and (number > 1 or not has_scene)
+            is_new = compute(member, again, reporting)
             if number == 1 and self.directory.is_dir():
                 text = ", ".join(phase.text for phase in self.phases)
                 disk.write(self.directory / phases.LIST, f"{text}\n")
@@ -217,22 +212,22 @@ class Chain:
                 break
         return status
 
-    def main(self, draw: Draw, reporting: Reporting, scene_is_new: bool = False) -> int:
+    def main(self, draw: Draw, reporting: Reporting, has_scene: bool = False) -> int:
         """Compute what is missing, and renew the page of the scene; return the exit
         status of the last run. draw: draws a run, with an error bar; reporting: renews
-        a page as long as its run goes on; scene_is_new: the scene has just been
-        computed, so that all phases are to follow."""
+        a page as long as its run goes on; has_scene: that one was computed before, in a
+        band, and is not repeated."""
         self.refuse_way()
-        status = self.make(draw, reporting, scene_is_new)
+        status = self.make(draw, reporting, has_scene)
         if (self.directory / "history.csv").is_file():
             print(f"report: {report.write(self.directory)}")
         return status
 
 
-def compute(member: StudyRun, again: bool, resumes: bool, reporting: Reporting) -> bool:
-    """Compute a run unless it is complete; return whether that was done. resumes: from
-    a checkpoint, if there is one."""
-    to_do = survey([member], again, resumes)
+def compute(member: StudyRun, again: bool, reporting: Reporting) -> bool:
+    """Compute a run unless it is complete, from its checkpoint if it has one; return
+    whether that was done."""
+    to_do = survey([member], again, resumes=True)
     words = "" if to_do else f": {what_becomes_of(member, False)}"
     print(f"run: {member.name}{words}", flush=True)
     if to_do:
