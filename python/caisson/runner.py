@@ -103,6 +103,7 @@ def refuse_missing(program: Path) -> None:
         )
 
 
+STOPPING = threading.Lock()  # between a request to stop and the end of a program
 FAILS = "the first steps of the run fail"  # what --validate warns of
 
 
@@ -387,7 +388,7 @@ class Run:
                 process.communicate()
                 raise
             status = process.wait()
-            self.process_id = None
+            self.forget_stop()
             errors.seek(0)
             said = errors.read().strip() or "".join(last).strip()
         if status not in (Status.SUCCESS, Status.STOPPED):
@@ -397,16 +398,25 @@ class Run:
         """Ask the program, if it runs, to stop with a checkpoint: by the stop file, as
         mpirun ends ranks that get a signal before they have written theirs. at_once:
         by a signal all the same. Asked for again, it does nothing."""
-        process = self.process_id
-        if process is None or (process == self.asked_to_stop and not at_once):
-            return
-        self.asked_to_stop = process
         name = self.in_effect["Run control/Stop file"]
-        if name and self.directory.is_dir() and not at_once:
-            (self.directory / name).touch()
-        else:
+        with STOPPING:
+            process = self.process_id
+            if process is None or (process == self.asked_to_stop and not at_once):
+                return
+            self.asked_to_stop = process
+            if name and self.directory.is_dir() and not at_once:
+                with contextlib.suppress(OSError):
+                    (self.directory / name).touch()
+                    return
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGTERM)
+
+    def forget_stop(self) -> None:
+        """Remove the stop file of a program that has ended, if it has not done so."""
+        with STOPPING:
+            self.process_id = None
+            if self.asked_to_stop and (name := self.in_effect["Run control/Stop file"]):
+                (self.directory / name).unlink(missing_ok=True)
 
     def make_room(self) -> list[str]:
         """Make the directory; return the options with which the program removes what
@@ -449,7 +459,7 @@ class Run:
                 clock.start()
             _, code, used = os.wait4(process.pid, 0)
             clock.cancel()
-            self.process_id = None
+            self.forget_stop()
         status = process.returncode = os.waitstatus_to_exitcode(code)
         if status not in (Status.SUCCESS, Status.FAILURE):
             return Status(status) if status in list(Status) else None

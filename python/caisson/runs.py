@@ -268,34 +268,45 @@ def make(runs: Sequence[StudyRun], how: How = How()) -> None:
 
 
 @contextlib.contextmanager
-def signals_as_interrupt() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP be a KeyboardInterrupt, as Ctrl-C is; not one that is
-    ignored, as by nohup. Only the main thread gets any."""
-    before = {}
+def counted_signals() -> Iterator[list[int]]:
+    """Give the list of what comes of Ctrl-C, SIGTERM and SIGHUP, which do nothing else
+    meanwhile; not of one that is ignored, as by nohup. Only the main thread gets any.
+    """
+    came, before = list[int](), {}
     if threading.current_thread() is threading.main_thread():
-        for number in (signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(number) == signal.SIG_DFL:
-                before[number] = signal.signal(number, signal.default_int_handler)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                before[number] = signal.signal(number, lambda n, _: came.append(n))
     try:
-        yield
+        yield came
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def stop(runs: Sequence[StudyRun], work: Sequence[Future[None]]) -> None:
-    """Stop runs that are being computed with a checkpoint, and begin no further one; at
-    once on another KeyboardInterrupt. work: their computations."""
+def wait_for(
+    work: Sequence[Future[None]],
+    runs: Sequence[StudyRun],
+    came: Sequence[int],
+    client: Any,
+) -> None:
+    """Wait for the computations of runs. On a signal that came, those that are computed
+    stop with a checkpoint, on another one at once, and no further one begins; then it
+    is a KeyboardInterrupt."""
+    seen = 0
+    while concurrent.futures.wait(work, 0.2).not_done:
+        if client is not None and len(came) > seen:
+            client.close()
+        at_once, seen = len(came) > max(seen, 1), len(came)
+        for each in work if seen else ():
+            each.cancel()
+        for run in runs if seen else ():
+            run.run.stop(at_once)
     for each in work:
-        each.cancel()
-    at_once, is_done = False, False
-    while not is_done:
-        try:
-            for run in runs:
-                run.run.stop(at_once)
-            is_done = not concurrent.futures.wait(work, 1.0).not_done
-        except KeyboardInterrupt:
-            at_once = True
+        if not each.cancelled():
+            each.result()
+    if came:
+        raise KeyboardInterrupt
 
 
 def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> None:
@@ -330,18 +341,11 @@ def execute(shares: Sequence[Share], how: How = How(), client: Any = None) -> No
         progress.end(number)
 
     progress = Progress([run.duration for run in ordered], share_of=share_of)
-    with progress, signals_as_interrupt():
+    with progress, counted_signals() as came:
         first = 0
         for runs, jobs, ranks in sorted_shares:
             numbers = range(first, first + len(runs))
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
                 work = [pool.submit(one, number, ranks) for number in numbers]
-                try:
-                    for each in work:
-                        each.result()
-                except KeyboardInterrupt:
-                    if client is not None:
-                        client.close()
-                    stop(ordered, work)
-                    raise
+                wait_for(work, ordered, came, client)
             first += len(runs)
