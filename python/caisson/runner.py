@@ -387,26 +387,35 @@ class Run:
                 self.stop()
                 process.communicate()
                 raise
+            finally:
+                self.forget_stop()
             status = process.wait()
-            self.forget_stop()
             errors.seek(0)
             said = errors.read().strip() or "".join(last).strip()
         if status not in (Status.SUCCESS, Status.STOPPED):
             raise RunError(f"{said}\n(exit status {status}, results: {self.directory})")
 
+    @property
+    def stop_file(self) -> Path | None:
+        """The file that stops it, None where it has none."""
+        try:
+            name = self.in_effect["Run control/Stop file"]
+        except RunError:  # it will not run
+            return None
+        return self.directory / name if name else None
+
     def stop(self, at_once: bool = False) -> None:
         """Ask the program, if it runs, to stop with a checkpoint: by the stop file, as
         mpirun ends ranks that get a signal before they have written theirs. at_once:
         by a signal all the same. Asked for again, it does nothing."""
-        name = self.in_effect["Run control/Stop file"]
         with STOPPING:
             process = self.process_id
             if process is None or (process == self.asked_to_stop and not at_once):
                 return
             self.asked_to_stop = process
-            if name and self.directory.is_dir() and not at_once:
+            if not at_once and (file := self.stop_file) and self.directory.is_dir():
                 with contextlib.suppress(OSError):
-                    (self.directory / name).touch()
+                    file.touch()
                     return
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGTERM)
@@ -415,8 +424,8 @@ class Run:
         """Remove the stop file of a program that has ended, if it has not done so."""
         with STOPPING:
             self.process_id = None
-            if self.asked_to_stop and (name := self.in_effect["Run control/Stop file"]):
-                (self.directory / name).unlink(missing_ok=True)
+            if self.asked_to_stop and (file := self.stop_file):
+                file.unlink(missing_ok=True)
 
     def make_room(self) -> list[str]:
         """Make the directory; return the options with which the program removes what
