@@ -284,6 +284,11 @@ def counted_signals() -> Iterator[list[int]]:
             signal.signal(number, handler)
 
 
+def has_raised(work: Future[None]) -> bool:
+    """Return whether a computation has ended with an exception."""
+    return work.done() and not work.cancelled() and work.exception() is not None
+
+
 def wait_for(
     work: Sequence[Future[None]],
     runs: Sequence[StudyRun],
@@ -291,17 +296,19 @@ def wait_for(
     client: Any,
 ) -> None:
     """Wait for the computations of runs. On a signal that came, those that are computed
-    stop with a checkpoint, on another one at once, and no further one begins; then it
-    is a KeyboardInterrupt."""
+    stop with a checkpoint, on a later one at once, and no further one begins; then it
+    is a KeyboardInterrupt. No further one begins either after one that has raised."""
     seen = 0
     while concurrent.futures.wait(work, 0.2).not_done:
         if client is not None and len(came) > seen:
             client.close()
-        at_once, seen = len(came) > max(seen, 1), len(came)
-        for each in work if seen else ():
-            each.cancel()
-        for run in runs if seen else ():
-            run.run.stop(at_once)
+        is_later, seen = 0 < seen < len(came), len(came)
+        if seen or any(map(has_raised, work)):
+            for each in work:
+                each.cancel()
+        if seen:
+            for run in runs:
+                run.run.stop(at_once=is_later)
     for each in work:
         if not each.cancelled():
             each.result()
