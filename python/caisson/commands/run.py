@@ -246,7 +246,10 @@ def run_on_ranks(command: list[str], stop_file: Path | None) -> int:
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, stop)
-    return wait_for(process)
+    status = wait_for(process)
+    if is_asked and stop_file is not None:  # which ranks that were ended have not seen
+        stop_file.unlink(missing_ok=True)
+    return status
 
 
 def run_band(arguments: list[str]) -> int:
