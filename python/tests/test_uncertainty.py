@@ -12,7 +12,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 from caisson import report
 from caisson.band import BEST, HIGH, LOW, band_of, member_of
 from caisson.plot import charts
-from caisson.report import low_and_high, verdict
+from caisson.report import verdict
 from caisson.results import Results
 from caisson.verdict import uncertainty
 from caisson.verdict.uncertainty import GROUND, MESH, PROGRAM
@@ -156,7 +156,7 @@ class Uncertainties(WithPage):
             steel = STEEL * h / AT[0] / AREA
             return float(required + hypot(MODEL * (required + weight), steel))
 
-        end = low_and_high.end_of_upper(run)
+        end = uncertainty.end_of_upper(run, band_of(run))
         assert end is not None
         self.assertLess(upper(end), 20e3)  # rounded down to 5 cm
         self.assertGreater(upper(end + 0.06), 20e3)
@@ -164,3 +164,5 @@ class Uncertainties(WithPage):
         self.assertIn(
             f"With the upper value of its uncertainty, suction ends at {end:g} m", page
         )
+        kept = json.loads((run.directory / "verdict.json").read_text("utf-8"))
+        self.assertEqual(kept["feasible_to_by_upper_value_m"], end)

@@ -22,7 +22,7 @@ from caisson.template import say
 from caisson.verdict import design, suction_methods, theory
 from caisson.verdict.installation import Installation
 from caisson.verdict.limits import BOILING, LID, LIMITS
-from caisson.verdict.outcome import depth_of
+from caisson.verdict.outcome import feasible_to
 from caisson.verdict.uncertainty import over_depth
 
 CAPTIONS = Path(__file__).with_name("captions.jinja")
@@ -193,7 +193,7 @@ def curve_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     if len(depth) < 2 or column not in run.history:
         return np.full(len(at), np.nan)
     values = curves.smoothed_within(depth, run.history[column][rows], at)
-    return np.where(at <= (depth_of(run) or np.inf), values, np.nan)
+    return np.where(at <= feasible_to(run), values, np.nan)
 
 
 def range_of(run: Results, column: str) -> Range | None:

@@ -17,7 +17,7 @@ from caisson.results import Results
 from caisson.template import say, say_rows
 from caisson.verdict import suction_methods as methods, theory
 from caisson.verdict.installation import Installation, Rate, installation_of
-from caisson.verdict.outcome import depth_of
+from caisson.verdict.outcome import depth_of, feasible_to
 
 WHITE = {"facecolor": "white", "edgecolor": "0.8"}  # behind a text
 
@@ -83,7 +83,7 @@ def draw_heave(axes: Axes, run: Results) -> None:
     charts.draw(axes, [heave, *bar])
     axes.axvline(0, color="0.6", linewidth=0.8)
     if "seepage_flow_m3_s" in history:
-        last = np.flatnonzero(depth <= (depth_of(run) or np.inf))[-1]
+        last = np.flatnonzero(depth <= feasible_to(run))[-1]
         flow = 3600 * history["seepage_flow_m3_s"][last]
         place = run.shown.depth(depth[last])
         text = f"seepage into the plug at {place}: {flow:.2g} m³/h"

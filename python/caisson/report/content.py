@@ -166,7 +166,7 @@ def scatter_of(run: Results) -> float:
     depth = curves.penetration(run.history)
     if depth is None or "total_force_N" not in run.history:
         return math.nan
-    rows = depth <= (outcome.depth_of(run) or np.inf)
+    rows = depth <= outcome.feasible_to(run)
     found = curves.roughness(depth[rows], run.history["total_force_N"][rows])
     return abs(found) if math.isfinite(found) else math.nan
 

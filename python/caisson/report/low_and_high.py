@@ -2,7 +2,6 @@
 """What low and high resistance of the soil change on the page of the best estimate: the
 verdict, the penetration by weight, and the required suction at the quarters; and how
 far the result may be wrong in all."""
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,12 +17,10 @@ from caisson.report.verdict import REST, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
-from caisson.verdict.limits import rounded_down
-from caisson.verdict.uncertainty import NAMES, at_end, over_depth
+from caisson.verdict.uncertainty import NAMES, at_end, end_of_upper
 
 # of the soil: what the result depends on most, where it is assumed
 DOUBTFUL = ("Adhesion factor of the walls", "Permeability", "Relative density")
-LITTLE = 0.1  # of the largest suction
 APART = 0.1  # of the planned penetration: two ends of suction that differ
 
 
@@ -70,9 +67,8 @@ def sentence_of(run: Results) -> str:
         ends[estimate] = say("outcome", run.shown, *how)
     clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
     band = say("of_band", ends, n_soils(run) == 1, clay)
-    end = None if run.by_hand or run.is_running else end_of_upper(run)
-    is_less = end is not None and end < (best.end or np.inf)
-    upper = say("end_of_upper", run.shown, end) if is_less else ""
+    end = end_of_upper(run, band_of(run))
+    upper = "" if end is None else say("end_of_upper", run.shown, end)
     return " ".join(filter(None, [upper, by_hand_in_words(run), band]))
 
 
@@ -87,22 +83,6 @@ def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:
     if not ends:
         return cards
     return [[*c[:2], "; ".join(ends)] if c[0] == REST else c for c in cards]
-
-
-def end_of_upper(run: Results) -> float | None:
-    """Return the depth (m) where the upper end of the required suction reaches the
-    allowable one; None where it does not."""
-    band = {n: x for n, x in band_of(run).items() if n == BEST or x.is_finished}
-    found = over_depth(band, SUCTION)
-    known = found and installation.installation_of(run, Rate(), found.depth)
-    if not found or not known or not known.limits:
-        return None
-    # not where suction begins: limits follow from it, by a ratio of small numbers
-    least = max(NOTHING, LITTLE * known.required.max())
-    needed = np.where(known.required > least, found.high / 1e3, 0.0)
-    upper = replace(known, required=needed)
-    end = outcome.reached(upper, known.allowable)
-    return rounded_down(end[0]) if end else None
 
 
 def uncertainty_of(run: Results) -> str:

@@ -112,7 +112,7 @@ def rest_in_words(run: Results, rest: float) -> str:
 
 def ways_down(run: Results) -> list[tuple[float, float]]:
     """Return where the weight suffices again (m) above the end of suction."""
-    end = outcome.depth_of(run) or np.inf
+    end = outcome.feasible_to(run)
     return [way for way in sinks_on(run.history) if way[0] < end]
 
 
@@ -178,6 +178,8 @@ def keep(run: Results) -> str:
     known: dict[str, Any] = {"verdict": found.text}
     if found.end is not None:
         known["feasible_to_m"] = found.end
+    if (upper := uncertainty.end_of_upper(run, band_of(run))) is not None:
+        known["feasible_to_by_upper_value_m"] = upper
     if rows := rows_of_limits(run, found.end):
         known["limits"] = rows
     if retrieved := retrieval.retrieval_of(run):

@@ -91,6 +91,12 @@ def depth_of(run: Results) -> float | None:
     return found[0] if found else None
 
 
+def feasible_to(run: Results) -> float:
+    """Return the depth (m) where suction ends in a run, inf where it does not."""
+    end = depth_of(run)
+    return np.inf if end is None else end
+
+
 def feasible_part(
     run: Results, found: Installation, end: float | None, rate: Rate = Rate()
 ) -> Installation:
@@ -103,8 +109,7 @@ def feasible_part(
 
 def feasible(run: Results, way: Way) -> Way:
     """Return a way down to where suction ends."""
-    end = depth_of(run)
-    rows = way.depth <= (np.inf if end is None else end)
+    rows = way.depth <= feasible_to(run)
     if rows.sum() < 2:
         return way
     return Way(way.depth[rows], {k: x[rows] for k, x in way.columns.items()})

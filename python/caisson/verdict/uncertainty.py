@@ -10,6 +10,7 @@ cone test, and the scatter of the friction of steel; the model a share of the fo
 which the program misses measurements (doc/validation.md).
 """
 from collections.abc import Mapping
+from dataclasses import replace
 from math import hypot
 from typing import Any, NamedTuple
 
@@ -19,8 +20,10 @@ from caisson import evaluation
 from caisson.band import BEST
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
-from caisson.verdict.installation import bounds_of, error_asked_of, plug_area
-from caisson.verdict.outcome import depth_of
+from caisson.verdict.installation import NOTHING, Rate, bounds_of, error_asked_of
+from caisson.verdict.installation import installation_of, plug_area
+from caisson.verdict.limits import rounded_down
+from caisson.verdict.outcome import feasible_to, reached
 
 # shares of the force: a model caisson in sand beside its tests, and the scatter of the
 # ring of jacked tubes over a cone, in which the computed ratio lies
@@ -29,6 +32,7 @@ OF_STEEL = 0.10  # of the friction of a wall: 29.6 +- 2.5 degrees in 44 tests
 NAMES = {TOTAL: ("total force", "N"), SUCTION: ("required suction", "Pa")}
 PARTS = MESH, GROUND, PROGRAM = "mesh", "ground", "model"
 POINTS = 60  # of a curve
+LITTLE = 0.1  # of the largest suction
 Members = Mapping[str, Results]  # by estimate, the best one among them
 
 
@@ -87,7 +91,7 @@ def values_of(run: Results, column: str, at: np.ndarray) -> np.ndarray:
     """Return the means of a column at depths [n] (m), nan where the run has not been,
     or suction is not feasible; a suction is below 0 where the weight suffices."""
     numbers, depth = evaluation.at_depths(run, at), run.history[DEPTH]
-    within = (at >= depth.min()) & (at <= (depth_of(run) or depth.max()) + 1e-6)
+    within = (at >= depth.min()) & (at <= min(feasible_to(run), depth.max()) + 1e-6)
     return np.where(within, numbers.get(column, np.nan), np.nan)
 
 
@@ -173,9 +177,8 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
 def end_of(members: Members) -> float:
     """Return the depth (m) where the way of the first of the estimates ends, or its
     suction."""
-    return min(
-        float(depth_of(run) or run.history[DEPTH].max()) for run in members.values()
-    )
+    ends = [min(feasible_to(x), x.history[DEPTH].max()) for x in members.values()]
+    return float(min(ends))
 
 
 def at_end(members: Members) -> list[Uncertainty]:
@@ -186,6 +189,26 @@ def at_end(members: Members) -> list[Uncertainty]:
 
 
 def over_depth(members: Members, column: str) -> Uncertainty | None:
-    """Return the uncertainty of a column down to there."""
-    start = float(members[BEST].history[DEPTH].min())
-    return uncertainty_of(members, column, np.linspace(start, end_of(members), POINTS))
+    """Return the uncertainty of a column down to there; None where there is no way."""
+    start, end = float(members[BEST].history[DEPTH].min()), end_of(members)
+    if end <= start:
+        return None
+    return uncertainty_of(members, column, np.linspace(start, end, POINTS))
+
+
+def end_of_upper(run: Results, members: Members) -> float | None:
+    """Return the depth (m) where the upper end of the required suction of a run that has
+    ended reaches the allowable one; None where it does not above the end of suction."""
+    if run.by_hand or run.is_running:
+        return None
+    ended = {n: x for n, x in members.items() if n == BEST or x.is_finished}
+    found = over_depth(ended, SUCTION)
+    known = found and installation_of(run, Rate(), found.depth)
+    if not found or not known or not known.limits:
+        return None
+    # not where suction begins: limits follow from it, by a ratio of small numbers
+    least = max(NOTHING, LITTLE * known.required.max())
+    needed = np.where(known.required > least, found.high / 1e3, 0.0)
+    end = reached(replace(known, required=needed), known.allowable)
+    depth = rounded_down(end[0]) if end else np.inf
+    return depth if depth < feasible_to(run) else None
