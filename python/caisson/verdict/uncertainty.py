@@ -197,8 +197,8 @@ def over_depth(members: Members, column: str) -> Uncertainty | None:
 
 
 def end_of_upper(run: Results, members: Members) -> float | None:
-    """Return the depth (m) where the upper end of the required suction of a run that has
-    ended reaches the allowable one; None where it does not above the end of suction."""
+    """Return the depth (m) above the end of suction where the upper end of the required
+    suction of a run that has ended reaches the allowable one; None without."""
     if run.by_hand or run.is_running:
         return None
     ended = {n: x for n, x in members.items() if n == BEST or x.is_finished}
