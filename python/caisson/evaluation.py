@@ -16,6 +16,8 @@ INTERVAL = 0.5  # m, between the depths
 LEAST_RISE = 1e-3  # m, below which a way up says nothing
 DEPTH, TOTAL, SUCTION = "penetration_m", "total_force_N", "required_suction_Pa"
 HEAVE, ROOM, BOILING = "plug_heave_m", "room_below_lid_m", "cavitation_suction_Pa"
+EXPECTED_HEAVE = "expected_heave_m"
+UNDER_WEIGHT = 0.5  # of the wall goes into the plug, and all of it under suction
 GRADIENT = "exit_gradient_over_critical"
 COLUMNS = (
     "tip_force_N",
@@ -75,6 +77,18 @@ def depths_of(position: np.ndarray, interval: float = INTERVAL) -> np.ndarray:
     return np.append(found, end)
 
 
+def heave_of_wall(run: Results, depth: np.ndarray, required: np.ndarray) -> np.ndarray:
+    """Return the heave of the plug by the wall [n] (m) at depths on the way down [n]
+    (m): half of it goes into the plug under the weight, and all of it under a required
+    suction [n] (Pa) (DNV-RP-E303). 0 where the sizes are not known."""
+    outer, wall = (run.scene.get(x) for x in ("diameter_m", "wall_thickness_m"))
+    if not outer or not wall:
+        return np.zeros(len(depth))
+    share = (float(outer) / (float(outer) - 2 * float(wall))) ** 2 - 1
+    part = np.where(required > 0, 1.0, UNDER_WEIGHT)
+    return share * np.cumsum(part * np.diff(depth, prepend=0.0))
+
+
 def way_of(run: Results, rows: np.ndarray) -> Way:
     """Return a way along rows of history.csv."""
     history = run.history
@@ -84,7 +98,9 @@ def way_of(run: Results, rows: np.ndarray) -> Way:
         if "critical_gradient" in history:  # not in clay
             columns[GRADIENT] = curves.gradient_share(history)[rows]
         if length := run.scene.get("skirt_length_m"):
-            columns[ROOM] = float(length) - depth - columns[HEAVE]
+            by_wall = heave_of_wall(run, depth, columns[SUCTION])
+            columns[EXPECTED_HEAVE] = np.maximum(columns[HEAVE], by_wall)
+            columns[ROOM] = float(length) - depth - columns[EXPECTED_HEAVE]
     return Way(depth, columns)
 
 

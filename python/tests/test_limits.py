@@ -158,6 +158,21 @@ class Governing(WithPage):
         words = "plug meets the lid, factor 3"
         self.check(run, limits.LID, 4 / 1.15, words)
 
+    def test_lid_by_the_wall(self) -> None:
+        """Where less heave is computed, 0.5 % of the way, than the wall of 0.2 m takes
+        up, (10 / 9.6)^2 - 1 = 8.507 % of the way, half of it down to 1.5 m, room is
+        kept for the latter: (4 + 0.75 * 0.08507) / 1.08507 = 3.745 m."""
+        scene = {"skirt_length_m": 4.0, "wall_thickness_m": 0.2}
+        run = self.run_of(scene, columns={"plug_heave_m": 0.1})
+        self.check(run, limits.LID, 3.745, "plug meets the lid")
+        found = self.installation(run)
+        at = float(found.depth[-1])
+        self.assertAlmostEqual(found.heave[-1], 0.005 * at, delta=1e-3)
+        self.assertAlmostEqual(found.expected[-1], 0.08507 * (at - 0.75), delta=2e-3)
+        self.assertAlmostEqual(found.room[-1], 4 - at - found.expected[-1])
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertRegex(page, r"all of it under suction; computed\s+0\.02 m")
+
     def test_shell(self) -> None:
         """10 mm for 10 m of diameter buckle; a lower factor and rings help."""
         thin = {"wall_thickness_m": 0.01}

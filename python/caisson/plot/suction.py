@@ -73,14 +73,19 @@ def draw_gradients(axes: Axes, run: Results) -> None:
     axes.set_xlabel("exit gradient / critical gradient")
 
 
-def draw_heave(axes: Axes, run: Results) -> None:
-    """Draw the heave of the plug and write the seepage at the end; what a pump takes
-    besides depends on the rate of penetration, and a run is faster than a caisson."""
+def draw_heave(axes: Axes, run: Results, found: Installation | None) -> None:
+    """Draw the heave of the plug, and the one expected where it is more, and write the
+    seepage at the end; what a pump takes besides depends on the rate of penetration,
+    and a run is faster than a caisson."""
     history, depth = run.history, run.history["penetration_m"]
     name, color = curve = "mean over the plug", "black"
     heave = line(name, color, history["plug_heave_m"], depth, thick=True)
     bar = bars(run, ("plug_heave", "m"), curve, scale=np.ones_like)
-    charts.draw(axes, [heave, *bar])
+    more = []
+    if found and found.expects_more:
+        label = "half of the wall by weight, all of it under suction"
+        more = [line(label, RED, found.expected, found.depth)]
+    charts.draw(axes, [heave, *bar, *more])
     axes.axvline(0, color="0.6", linewidth=0.8)
     if "seepage_flow_m3_s" in history:
         last = np.flatnonzero(depth <= feasible_to(run))[-1]
@@ -128,10 +133,11 @@ def draw(directory: Path, run: Results) -> list[Path]:
     panels = figure.subplots(1, 2 + seeps, width_ratios=[1.7, 1, 1][: 2 + seeps])
     figure.suptitle(run.title, fontsize=10)
     at = np.linspace(max(float(depth[0]), 0.0), deepest, 60)
-    beyond = draw_suction(panels[0], run, installation_of(run, Rate(), at), answers)
+    found = installation_of(run, Rate(), at)
+    beyond = draw_suction(panels[0], run, found, answers)
     if seeps:
         draw_gradients(panels[1], run)
-    draw_heave(panels[-1], run)
+    draw_heave(panels[-1], run, found)
     for axes in panels:
         over_depth(axes, axes.get_xlabel(), "")
         axes.set_ylim(1.02 * max(depth.max(), 0), min(depth.min(), 0))

@@ -243,7 +243,7 @@ def skirt_of(planned: Planned) -> tuple[float, float] | None:
     found, length = planned.found, planned.run.scene.get("skirt_length_m")
     if not length or not len(found.room):
         return None
-    rise = found.factors.get(limits.LID, 1.0) * planned.value(lambda x: x.heave)
+    rise = found.factors.get(limits.LID, 1.0) * planned.value(lambda x: x.expected)
     needed = planned.depth + max(rise, 0.0)
     return (needed, float(length)) if needed > float(length) else None
 

@@ -27,7 +27,7 @@ ENTRIES = START, SCOUR, TILT, NUMBER, DISTANCE, SPREAD, DOCUMENT  # of section D
 ROWS = 80  # of a grid of depths
 # shares of the embedment, at which a load is given
 DOWN = {"mudline": 0.0, "1/4": 0.25, "1/2": 0.5, "3/4": 0.75, "tip": 1.0}
-MORE_HEAVE = 2.0  # times the computed one, at which the vessel stops
+MORE_HEAVE = 2.0  # times the expected one, at which the vessel stops
 FURTHER = 3.0  # times the penetration by weight, to which a seal is looked for
 
 
@@ -103,7 +103,8 @@ def grout_of(run: Results, found: Installation) -> Grout | None:
     """Return the space for grout; None where the room below the lid is not known."""
     if not len(found.room):
         return None
-    depth, gap = float(found.depth[-1]), float(found.room[-1])
+    depth, room = float(found.depth[-1]), float(found.room[-1])
+    gap = room + float(found.expected[-1] - found.heave[-1])
     area, tilt = plug_area(run.scene), given(run, TILT)
     inner = float(run.scene["diameter_m"]) - 2 * float(run.scene["wall_thickness_m"])
     answers = suction_methods.answers_of(theory.site_of(run), np.array([depth]))
@@ -112,7 +113,7 @@ def grout_of(run: Results, found: Installation) -> Grout | None:
         inside = answers.suctions[suction_methods.PIPING][0]
         outside = sealing.grout_pressure(float(inside), factor_of(run, depth))
         piping = outside / found.factors[limits.PIPING] / 1e3
-    ends = sealing.gaps(gap, inner, tilt)
+    ends = sealing.gaps(room, inner, tilt)[0], sealing.gaps(gap, inner, tilt)[1]
     volume, lifts = area * max(gap, 0.0), run.weight / 1e3 / area
     return Grout(depth, volume, gap, ends, tilt, piping, lifts)
 
@@ -282,7 +283,7 @@ def load_of(run: Results, found: Installation) -> Load | None:
 class Stop(NamedTuple):
     """When the vessel stops, with numbers of a depth end: the allowable suction from
     where the caisson rests on, at the first and the last depth and where it is least,
-    with what governs there; the heave at which it stops, the one computed, and that
+    with what governs there; the heave at which it stops, the one expected, and that
     which fills the skirt at the planned depth; the flow under the allowable suction
     (m3/h), and the one computed; the tilt (degrees, 0 if it is not given). nan stands
     for what is not known."""
@@ -317,9 +318,9 @@ def stop_of(run: Results, found: Installation, planned: float) -> Stop:
     ]
     heave, end = (nan, nan, nan), float(found.depth[-1])
     if len(found.room):
-        computed = float(found.heave[-1])
+        expected = float(found.expected[-1])
         fills = float(run.scene["skirt_length_m"]) - planned
-        heave = min(fills, MORE_HEAVE * max(computed, 0.0) or fills), computed, fills
+        heave = min(fills, MORE_HEAVE * max(expected, 0.0) or fills), expected, fills
     tilt = given(run, TILT)
     return Stop(end, suctions, heave, flows_of(found), tilt)
 

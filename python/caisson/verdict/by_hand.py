@@ -35,6 +35,7 @@ from caisson.design.own_cone import DIAMETER
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
 from caisson.design.seepage import pressure_factor
 from caisson.evaluation import BOILING, DEPTH, GRADIENT, HEAVE, SUCTION, TOTAL
+from caisson.evaluation import UNDER_WEIGHT
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import query, set_options
 from caisson.units import GRAVITY
@@ -47,7 +48,6 @@ COLUMNS = dict(
 DEEP = 20 * DIAMETER  # m, from where on a cone is deep
 ROWS = 150  # over the way
 WEIGHT_OF_WATER = 1000 * GRAVITY  # N/m3
-UNDER_WEIGHT = 0.5  # of the wall goes into the plug
 STEP = {
     "Time/End time": "",
     "Output/Frame interval": "never",

@@ -18,7 +18,7 @@ import numpy as np
 from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson import evaluation
-from caisson.evaluation import DEPTH, HEAVE, at_depths, pump_limit
+from caisson.evaluation import DEPTH, EXPECTED_HEAVE, HEAVE, at_depths, pump_limit
 from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
@@ -250,7 +250,8 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     found = {name: values / factors[name] for name, values in found.items()}
     if (length := run.scene.get("skirt_length_m")) and HEAVE in numbers:
         rows = at_depths(run)
-        depth, heave = rows[DEPTH], factors[LID] * rows[HEAVE]
+        depth = rows[DEPTH]
+        heave = factors[LID] * rows.get(EXPECTED_HEAVE, rows[HEAVE])
         lid = lid_depth(depth, float(length) - depth - heave)
         met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
         found[LID] = np.where(at < met - 1e-9, inf, 0.0)
