@@ -37,9 +37,11 @@ SAND = Layer(0, GAMMA, 30, K)
 WEIGHT = 600e3
 
 
-def caisson(layers: Sequence[Layer] = (SAND,), angle: float = 25) -> Caisson:
+def caisson(
+    enhanced: bool, layers: Sequence[Layer] = (SAND,), angle: float = 25
+) -> Caisson:
     """Return a caisson of 6 m with a wall of 0.05 m."""
-    return Caisson(DO, T, layers, angle, angle)
+    return Caisson(DO, T, layers, angle, angle, 1.5 if enhanced else None)
 
 
 def stress_and_friction(
@@ -111,14 +113,14 @@ class Flow(unittest.TestCase):
         """Flow adds 4 kPa/m outside to 6 and 16, and takes 8 inside, but not
         below 0; K tan(delta) is 0.5 and 0.25."""
         layers = [Layer(0, 6e3, 30, 0.5), Layer(1, 16e3, 30, 0.25)]
-        body, flow = caisson(layers, 45), Seepage(4e3, -8e3)
+        body, flow = caisson(False, layers, 45), Seepage(4e3, -8e3)
         outer = pi * DO * (0.5 * 5e3 + 0.25 * (10e3 + 10e3))
-        self.assertAlmostEqual(body.forces(2, False, flow).outer_friction / outer, 1)
+        self.assertAlmostEqual(body.forces(2, flow).outer_friction / outer, 1)
         inner = pi * DI * 0.25 * 4e3
-        self.assertAlmostEqual(body.forces(2, False, flow).inner_friction / inner, 1)
+        self.assertAlmostEqual(body.forces(2, flow).inner_friction / inner, 1)
         # 30 kPa outside, 8 kPa inside: the soil flows inwards
         tip = (8e3 * N_Q + 8e3 * T * N_GAMMA) * RIM
-        self.assertAlmostEqual(body.forces(2, False, flow).tip / tip, 1, places=5)
+        self.assertAlmostEqual(body.forces(2, flow).tip / tip, 1, places=5)
 
     def test_tip_that_yields_to_both_sides(self) -> None:
         """At 1 m: 9.1 kPa outside, 8.7 kPa inside."""
@@ -127,43 +129,41 @@ class Flow(unittest.TestCase):
         end = 9.1e3 * N_Q + weight * N_GAMMA * (T - 2 * x**2 / T)
         self.assertLess(x, T)
         self.assertAlmostEqual(
-            caisson().forces(1, False, flow).tip / (end * RIM), 1, places=5
+            caisson(False).forces(1, flow).tip / (end * RIM), 1, places=5
         )
 
     def test_no_weight_at_the_tip(self) -> None:
         flow = Seepage(3e3, -GAMMA)
-        self.assertEqual(caisson().forces(2, True, flow).tip, 0)
-        self.assertEqual(caisson().forces(2, True, flow).inner_friction, 0)
+        self.assertEqual(caisson(True).forces(2, flow).tip, 0)
+        self.assertEqual(caisson(True).forces(2, flow).inner_friction, 0)
 
     def test_resistance_is_the_sum(self) -> None:
-        body, flow = caisson(), Seepage(3e3, -4e3)
-        for enhanced in (False, True):
-            total = body.forces(2, enhanced, flow).total
-            self.assertAlmostEqual(body.resistance(2, enhanced, flow) / total, 1)
+        flow = Seepage(3e3, -4e3)
+        for body in (caisson(False), caisson(True)):
+            total = body.forces(2, flow).total
+            self.assertAlmostEqual(body.resistance(2, flow) / total, 1)
 
 
-def rest_of(body: Caisson, weight: float, enhanced: bool, deepest: float) -> float:
+def rest_of(body: Caisson, weight: float, deepest: float) -> float:
     """Return the penetration by weight (m)."""
     tops = [layer.top for layer in body.layers]
-    return self_weight_penetration(
-        lambda h: body.resistance(h, enhanced), weight, deepest, tops
-    )
+    return self_weight_penetration(body.resistance, weight, deepest, tops)
 
 
 class SelfWeight(unittest.TestCase):
     """Penetration without suction."""
 
     def test_resistance_is_the_weight(self) -> None:
-        for enhanced in (False, True):
-            h = rest_of(caisson(), WEIGHT, enhanced, 6)
-            self.assertAlmostEqual(caisson().resistance(h, enhanced) / WEIGHT, 1)
+        for body in (caisson(False), caisson(True)):
+            h = rest_of(body, WEIGHT, 6)
+            self.assertAlmostEqual(body.resistance(h) / WEIGHT, 1)
 
     def test_by_hand(self) -> None:
         """Plain: a h^2 + b h + c = V'."""
         a = GAMMA / 2 * K_TAN * pi * (DO + DI)
         b, c = GAMMA * N_Q * RIM, GAMMA * T / 2 * N_GAMMA * RIM
         h = (-b + np.sqrt(b**2 + 4 * a * (WEIGHT - c))) / (2 * a)
-        found = rest_of(caisson(), WEIGHT, False, 6)
+        found = rest_of(caisson(False), WEIGHT, 6)
         self.assertAlmostEqual(found, h, places=4)
 
     def test_it_stands_above_the_bottom_of_a_layer(self) -> None:
@@ -183,15 +183,15 @@ class SelfWeight(unittest.TestCase):
             Layer(1, 9e3, 40, 0.5),
             Layer(1.5, 9e3, 20, 0.5),
         ]
-        body = caisson(layers)
-        weight = (body.resistance(1, False) + body.resistance(1.01, False)) / 2
-        self.assertGreater(weight, body.resistance(1.51, False))
-        found = rest_of(body, weight, False, 3)
+        body = caisson(False, layers)
+        weight = (body.resistance(1) + body.resistance(1.01)) / 2
+        self.assertGreater(weight, body.resistance(1.51))
+        found = rest_of(body, weight, 3)
         self.assertAlmostEqual(found, 1, places=9)
 
     def test_none(self) -> None:
-        self.assertTrue(np.isnan(rest_of(caisson(), 1e8, False, 1)))
-        self.assertEqual(rest_of(caisson(), 0, False, 1), 0)
+        self.assertTrue(np.isnan(rest_of(caisson(False), 1e8, 1)))
+        self.assertEqual(rest_of(caisson(False), 0, 1), 0)
 
 
 class HoulsbyByrne(unittest.TestCase):
@@ -201,15 +201,15 @@ class HoulsbyByrne(unittest.TestCase):
         for h in (2.5, 4, 6):
             for kf in (1, 3):
                 for enhanced in (False, True):
-                    s = required_suction(caisson(), WEIGHT, h, enhanced, kf)
+                    s = required_suction(caisson(enhanced), WEIGHT, h, kf)
                     left = residual(s, WEIGHT, h, kf, enhanced)
                     self.assertLess(abs(left) / (s * AREA), 1e-5, (h, kf, enhanced))
 
     def test_it_begins_at_the_self_weight_penetration(self) -> None:
-        for enhanced in (False, True):
-            h = rest_of(caisson(), WEIGHT, enhanced, 6)
+        for body in (caisson(False), caisson(True)):
+            h = rest_of(body, WEIGHT, 6)
             at = [
-                required_suction(caisson(), WEIGHT, f * h, enhanced)
+                required_suction(body, WEIGHT, f * h)
                 for f in (0.5, 0.9999, 1.0001, 1.01, 1.1)
             ]
             self.assertEqual(at[:2], [0, 0])
@@ -217,32 +217,33 @@ class HoulsbyByrne(unittest.TestCase):
 
     def test_more_weight_takes_less_suction(self) -> None:
         found = [
-            required_suction(caisson(), weight, 5, True)
+            required_suction(caisson(True), weight, 5)
             for weight in np.linspace(0, 3e6, 20)
         ]
         self.assertTrue(all(a > b or a == b == 0 for a, b in pairwise(found)), found)
         self.assertGreater(found[0], found[-1])
 
     def test_equal_layers_are_one(self) -> None:
-        many = caisson([Layer(top, GAMMA, 30, K) for top in (0, 1.3, 3.1)])
+        layers = [Layer(top, GAMMA, 30, K) for top in (0, 1.3, 3.1)]
         for enhanced in (False, True):
-            one = required_suction(caisson(), WEIGHT, 5, enhanced)
-            self.assertAlmostEqual(required_suction(many, WEIGHT, 5, enhanced) / one, 1)
+            one = required_suction(caisson(enhanced), WEIGHT, 5)
+            many = required_suction(caisson(enhanced, layers), WEIGHT, 5)
+            self.assertAlmostEqual(many / one, 1)
 
     def test_piping(self) -> None:
         """At piping only the outer friction is left: without weight, the plain
         forces allow h up to D_i^2 / (2 K tan(delta) D_o) for any permeability."""
-        deepest = DI**2 / (2 * K_TAN * DO)
+        body, deepest = caisson(False), DI**2 / (2 * K_TAN * DO)
         for kf in (0.5, 1, 3):
-            s = required_suction(caisson(), 0, 0.999 * deepest, False, kf)
+            s = required_suction(body, 0, 0.999 * deepest, kf)
             most = houlsby_byrne(GAMMA, 0.999 * deepest, DO, kf)
             self.assertTrue(0.99 * most < s < most, (s, most))
-            beyond = required_suction(caisson(), 0, 1.001 * deepest, False, kf)
+            beyond = required_suction(body, 0, 1.001 * deepest, kf)
             self.assertTrue(isnan(beyond))
-        self.assertTrue(isnan(required_suction(caisson(), 0, 0, False)))
+        self.assertTrue(isnan(required_suction(body, 0, 0)))
 
     def test_piping_of_the_lightest_layer(self) -> None:
-        body = caisson([Layer(0, 10e3, 30, K), Layer(2, 8e3, 30, K)])
+        body = caisson(False, [Layer(0, 10e3, 30, K), Layer(2, 8e3, 30, K)])
         self.assertAlmostEqual(piping_suction(body, 2), houlsby_byrne(10e3, 2, DO))
         self.assertAlmostEqual(piping_suction(body, 3), houlsby_byrne(8e3, 3, DO))
 
@@ -270,9 +271,9 @@ class SendersRandolph(unittest.TestCase):
 
     def test_mean_unit_weight(self) -> None:
         """10 kN/m3 over 2 m and 7 over 1 m are 9 over 3 m."""
-        body = caisson([Layer(0, 10e3, 30, K), Layer(2, 7e3, 30, K)])
+        body = caisson(False, [Layer(0, 10e3, 30, K), Layer(2, 7e3, 30, K)])
         self.assertAlmostEqual(
-            critical_suction(body, 3), critical_suction(caisson(), 3)
+            critical_suction(body, 3), critical_suction(caisson(False), 3)
         )
 
 

@@ -48,11 +48,10 @@ SCENE: dict[str, Any] = {
 SITE = theory.Site(SCENE)
 GEOMETRY = (D, 0.1, [Layer(0, GAMMA, 30, 0.5)], 20, 20)
 UNDISTURBED = Caisson(*GEOMETRY)
-# case of the columns: the caisson, and whether friction enhances the stress
-CASES = {
-    "low": (Caisson(*GEOMETRY, k_tan_delta=(0.45, 0.45)), True),
-    "high": (Caisson(*GEOMETRY, k_tan_delta=(0.8, 0.8)), True),
-    "undisturbed": (UNDISTURBED, False),
+CASES = {  # of the columns
+    "low": Caisson(*GEOMETRY, 1.5, (0.45, 0.45)),
+    "high": Caisson(*GEOMETRY, 1.5, (0.8, 0.8)),
+    "undisturbed": UNDISTURBED,
 }
 ASSUMED = [
     column.replace("_cone", "_assumed_cone")
@@ -173,9 +172,9 @@ class MadeUpRun(unittest.TestCase):
         fits = CRITICAL_SUCTIONS
         byrne = {
             f"houlsby_byrne_{case}_Pa": installation.required_suction(
-                caisson, WEIGHT, h, enhanced
+                caisson, WEIGHT, h
             )
-            for case, (caisson, enhanced) in CASES.items()
+            for case, caisson in CASES.items()
         }
         expected = {
             "penetration_m": h,
@@ -232,8 +231,7 @@ class MadeUpRun(unittest.TestCase):
         self.assertIsNone(evaluation.rest_of_run(history))
         answers = methods.answers_of(SITE, np.array([1.0, 6.0]))
         for name in methods.RANGE:
-            caisson, enhanced = CASES[methods.CASES[name]]
-            force = caisson.resistance(answers.rest[name], enhanced)
+            force = CASES[methods.CASES[name]].resistance(answers.rest[name])
             self.assertAlmostEqual(force / WEIGHT, 1)
 
     def test_water_boils_later_as_the_lid_comes_down(self) -> None:
@@ -319,12 +317,12 @@ class MadeUpRun(unittest.TestCase):
         self.assertAlmostEqual(float(row["tip_force_N"]), 4e5, delta=1)
         first = float(self.design()[0]["tip_force_N"])
         self.assertAlmostEqual(first, history["tip_force_N"][1])
-        for case, (caisson, enhanced) in CASES.items():
-            tip = caisson.forces(4, enhanced).tip
+        for case, caisson in CASES.items():
+            tip = caisson.forces(4).tip
             known = float(row[f"houlsby_byrne_{case}_tip_N"])
             self.assertAlmostEqual(known / tip, 1, 9)
             known = float(row[f"houlsby_byrne_{case}_total_N"])
-            self.assertAlmostEqual(known / caisson.resistance(4, enhanced), 1, 9)
+            self.assertAlmostEqual(known / caisson.resistance(4), 1, 9)
         self.assertNotIn("dnv_most_probable_tip_N", row)
         tip = 0.3 * float(row[pressures[0]]) * np.pi * 5.9 * 0.1
         known = float(row["dnv_assumed_cone_most_probable_tip_N"])
@@ -442,7 +440,7 @@ class MadeUpRun(unittest.TestCase):
         answers = methods.answers_of(site, np.array([h]))
         for name, k_in in zip(methods.RANGE, (0.5, 0.6)):
             caisson = Caisson(*GEOMETRY, k_tan_delta=(k_in, 0.7))
-            s = installation.required_suction(caisson, WEIGHT, h, False, 3)
+            s = installation.required_suction(caisson, WEIGHT, h, 3)
             self.assertAlmostEqual(answers.suctions[name][0], s)
         piping = seepage.houlsby_byrne(GAMMA, h, D, 3)
         self.assertAlmostEqual(answers.suctions[methods.PIPING][0], piping)

@@ -99,19 +99,15 @@ class Wall:
         friction_angle: float,
         k_tan_delta: float | None,
     ) -> None:
-        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside. k_tan_delta:
-        of all layers, or None for that of undisturbed ground."""
+        """reach: Z K tan(delta), m: D/4 inside, D (m^2 - 1)/4 outside, inf without
+        stress enhancement. k_tan_delta: of all layers, or None for that of undisturbed
+        ground."""
         self.diameter, self.reach = diameter, reach
         self.tan_delta = tan(radians(friction_angle))
         self.k_tan_delta = k_tan_delta
 
     def step(
-        self,
-        layer: Layer,
-        stress: float,
-        thickness: float,
-        enhanced: bool,
-        added: float,
+        self, layer: Layer, stress: float, thickness: float, added: float
     ) -> tuple[float, float]:
         """Return the vertical stress below a piece of a layer, from that above
         it, and the friction on the piece. added: to the unit weight, by flow."""
@@ -122,7 +118,7 @@ class Wall:
         if k_tan is None or tan_delta == 0:  # where the wall is smooth 0
             k_tan = layer.lateral_stress_ratio * tan_delta
         d, z = thickness, self.reach / k_tan if k_tan > 0 else inf
-        if enhanced and z < inf:
+        if z < inf:
             growth = exp(d / z) - 1
             below = stress + (stress + weight * z) * growth
             integral = stress * z * growth + weight * z**2 * (growth - d / z)
@@ -143,18 +139,20 @@ class Caisson:
         layers: Sequence[Layer],
         inner_friction_angle: float,
         outer_friction_angle: float,
-        spread: float = 1.5,
+        spread: float | None = None,
         k_tan_delta: tuple[float, float] | None = None,
     ) -> None:
-        """diameter: outer one; layers: from the surface down; spread: m; k_tan_delta:
-        K tan(delta) of the inner and the outer wall, None for undisturbed ground."""
+        """diameter: outer one; layers: from the surface down; spread: m, None without
+        stress enhancement; k_tan_delta: K tan(delta) of the inner and the outer wall,
+        None for undisturbed ground."""
         self.outer_diameter, self.t = diameter, wall_thickness
         self.layers = sorted(layers, key=lambda layer: layer.top)
+        self.enhanced = spread is not None
         inner = diameter - 2 * wall_thickness
-        reach = diameter * (spread**2 - 1) / 4
+        reach = inner / 4 if spread else inf, diameter * ((spread or inf) ** 2 - 1) / 4
         k_inner, k_outer = k_tan_delta or (None, None)
-        self.inner = Wall(inner, inner / 4, inner_friction_angle, k_inner)
-        self.outer = Wall(diameter, reach, outer_friction_angle, k_outer)
+        self.inner = Wall(inner, reach[0], inner_friction_angle, k_inner)
+        self.outer = Wall(diameter, reach[1], outer_friction_angle, k_outer)
 
     def pieces(self, h: float) -> list[tuple[Layer, float]]:
         """Return the layers down to h, with the thickness that counts."""
@@ -166,13 +164,11 @@ class Caisson:
             if layer.top < h
         ]
 
-    def _go_down(
-        self, wall: Wall, h: float, enhanced: bool, added: float
-    ) -> tuple[float, float]:
+    def _go_down(self, wall: Wall, h: float, added: float) -> tuple[float, float]:
         """Return the vertical stress at h and the friction down to it."""
         stress = friction = 0.0
         for layer, thickness in self.pieces(h):
-            stress, part = wall.step(layer, stress, thickness, enhanced, added)
+            stress, part = wall.step(layer, stress, thickness, added)
             friction += part
         return stress, friction
 
@@ -205,16 +201,16 @@ class Caisson:
             end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
         return end * pi * (self.outer_diameter - t) * t
 
-    def forces(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> Forces:
+    def forces(self, h: float, seepage: Seepage = STILL) -> Forces:
         """Return the force on the tip, with a flat end of the wall, and the friction
         on both walls."""
-        inner, inside = self._go_down(self.inner, h, enhanced, seepage.inner)
-        outer, outside = self._go_down(self.outer, h, enhanced, seepage.outer)
+        inner, inside = self._go_down(self.inner, h, seepage.inner)
+        outer, outside = self._go_down(self.outer, h, seepage.outer)
         return Forces(self._tip_between(inner, outer, h, seepage), inside, outside)
 
-    def resistance(self, h: float, enhanced: bool, seepage: Seepage = STILL) -> float:
+    def resistance(self, h: float, seepage: Seepage = STILL) -> float:
         """Return the friction on both walls and the force on the tip."""
-        return self.forces(h, enhanced, seepage).total
+        return self.forces(h, seepage).total
 
 
 class Assumptions(NamedTuple):
@@ -227,13 +223,6 @@ class Assumptions(NamedTuple):
     load_spread: float | None = 1.5  # m; None: no stress enhancement
 
 
-class Case(NamedTuple):
-    """A caisson whose walls have one K tan(delta), with or without enhancement."""
-
-    caisson: Caisson
-    enhanced: bool
-
-
 UNDISTURBED = "undisturbed"
 
 
@@ -243,13 +232,14 @@ class HoulsbyByrne:
 
     cases = ("low", "high")
 
-    def __init__(self, by_name: Mapping[str, Case], permeability_ratio: float) -> None:
+    def __init__(
+        self, by_name: Mapping[str, Caisson], permeability_ratio: float
+    ) -> None:
         self.by_name, self.permeability_ratio = by_name, permeability_ratio
 
     def forces(self, h: float, case: str, flow: Seepage = STILL) -> Forces:
         """Return the forces at an embedment: of jacking, or under flow."""
-        caisson, enhanced = self.by_name[case]
-        return caisson.forces(h, enhanced, flow)
+        return self.by_name[case].forces(h, flow)
 
 
 def method(
@@ -260,12 +250,11 @@ def method(
     assumed: Assumptions,
 ) -> HoulsbyByrne:
     """Return the method for sand. friction_angles: of the inner and outer wall."""
-    spread = assumed.load_spread
-    geometry = (diameter, wall_thickness, layers, *friction_angles, spread or 1.5)
+    geometry = diameter, wall_thickness, layers, *friction_angles
     ranges = zip(assumed.k_tan_delta_inside, assumed.k_tan_delta_outside)
     by_name = {
-        name: Case(Caisson(*geometry, k_tan_delta=pair), spread is not None)
+        name: Caisson(*geometry, assumed.load_spread, pair)
         for name, pair in zip(HoulsbyByrne.cases, ranges)
     }
-    by_name[UNDISTURBED] = Case(Caisson(*geometry), False)
+    by_name[UNDISTURBED] = Caisson(*geometry)
     return HoulsbyByrne(by_name, assumed.plug_permeability_ratio)

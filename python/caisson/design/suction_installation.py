@@ -112,11 +112,7 @@ def piping_suction(
 
 
 def required_suction(
-    caisson: Caisson,
-    weight: float,
-    h: float,
-    enhanced: bool,
-    permeability_ratio: float = 1.0,
+    caisson: Caisson, weight: float, h: float, permeability_ratio: float = 1.0
 ) -> float:
     """Return the suction by Houlsby and Byrne that moves the tip on at h.
 
@@ -125,13 +121,13 @@ def required_suction(
     so that its sign at piping shows which is the case, and the root is the only
     one. permeability_ratio: of the sand inside to that outside.
     """
-    if caisson.resistance(h, enhanced) <= weight:
+    if caisson.resistance(h) <= weight:
         return 0.0
     area = plug_area(caisson)
 
     def missing(suction: float) -> float:
         flow = seepage(caisson, suction, h, permeability_ratio)
-        return caisson.resistance(h, enhanced, flow) - weight - suction * area
+        return caisson.resistance(h, flow) - weight - suction * area
 
     most = piping_suction(caisson, h, permeability_ratio)
     if h <= 0 or not missing(most) <= 0:

@@ -121,7 +121,7 @@ def under_suction(
         byrne = theory.houlsby_byrne_of(site, float(at.max()))
     except theory.NotApplicable:
         return []
-    caisson, _ = byrne.by_name[UNDISTURBED]
+    caisson = byrne.by_name[UNDISTURBED]
     pairs = list(zip(map(float, suction), map(float, at)))
     flows = [
         installation.seepage(caisson, s, h, byrne.permeability_ratio) for s, h in pairs
@@ -205,7 +205,7 @@ def of_byrne(run: Results, h: float) -> str:
         return ""
     suction, flow, mine, what = 0.0, STILL, computed.total, "force"
     ends = [byrne.forces(h, case).total for case in byrne.cases]
-    caisson, _ = byrne.by_name[UNDISTURBED]
+    caisson = byrne.by_name[UNDISTURBED]
     if needs_suction(run):
         suction = mine = float(design.suction_at(run.history, at)[0])
         found = suction_methods.answers_of(site, at).suctions
@@ -217,7 +217,7 @@ def of_byrne(run: Results, h: float) -> str:
     low, high = (byrne.forces(h, case, flow) for case in byrne.cases)
     name, both = suction_methods.HOULSBY_BYRNE, (mine, ends[0], ends[1])
     beside = reasons.Compared(name, h, what, both, computed, low, high)
-    frictions = computed.outer_friction, caisson.forces(h, False, flow).outer_friction
+    frictions = computed.outer_friction, caisson.forces(h, flow).outer_friction
     k, k0 = (caisson.k_tan_delta_of(friction, h, flow) for friction in frictions)
     enhanced = byrne.by_name["low"].enhanced
     return reasons.of_houlsby_byrne(beside, suction, enhanced, (k, k0))

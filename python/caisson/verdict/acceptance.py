@@ -40,7 +40,7 @@ def factor_of(run: Results, depth: float) -> float:
     """Return a, the pressure at the tip over the suction, by Houlsby & Byrne. Raises
     NotApplicable."""
     byrne = theory.houlsby_byrne_of(theory.site_of(run), depth)
-    caisson, _ = byrne.by_name[UNDISTURBED]
+    caisson = byrne.by_name[UNDISTURBED]
     slenderness = depth / caisson.outer_diameter
     return pressure_factor(slenderness, byrne.permeability_ratio)
 

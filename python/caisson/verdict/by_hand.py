@@ -226,7 +226,7 @@ class ByHand(Results):
         a suction [n] (Pa), 0 below the first clay; nothing where no water flows."""
         if self.byrne is None or not self.sand_end:
             return {}
-        caisson, _ = self.byrne.by_name[UNDISTURBED]
+        caisson = self.byrne.by_name[UNDISTURBED]
         ratio, flow, share = self.byrne.permeability_ratio, [], []
         flowing = np.where(depth <= self.sand_end, np.maximum(required, 0.0), 0.0)
         for h, s in zip(map(float, depth), flowing):

@@ -104,7 +104,7 @@ def by_byrne(byrne: HoulsbyByrne, column: str, weight: float, h: float) -> float
     an embedment (m), nan where none below piping suffices."""
     case = byrne.by_name[CASES[column]]
     ratio = byrne.permeability_ratio
-    return installation.required_suction(case.caisson, weight, h, case.enhanced, ratio)
+    return installation.required_suction(case, weight, h, ratio)
 
 
 def suctions_at(
@@ -113,7 +113,7 @@ def suctions_at(
     """Return the suctions of the methods at an embedment, in Pa. cones: those by cone
     that apply."""
     ratio = byrne.permeability_ratio
-    caisson, _ = byrne.by_name[UNDISTURBED]
+    caisson = byrne.by_name[UNDISTURBED]
     mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
     critical = installation.critical_suction(caisson, h)
     loads = weight, installation.plug_area(caisson), critical
@@ -157,7 +157,7 @@ def flow_above_clay(
     if end := theory.above_clay(site, float(depth.max())):
         with suppress(theory.NotApplicable):
             byrne = theory.houlsby_byrne_of(site, end)
-            (caisson, _), ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
+            caisson, ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
             for i in np.flatnonzero(depth <= end):
                 h = float(depth[i])
                 critical[i] = installation.critical_suction(caisson, h)
