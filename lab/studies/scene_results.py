@@ -4,9 +4,8 @@
 doc/scene_results.csv has the key numbers of each scene: of the whole run, and of a
 short way. Its rows say with which commit and on which processor they were made, and how
 much time of one core that took. Runs that are complete are not repeated. A number that
-differs by more than 3 % is a failure. --write takes new numbers into the file, and into
-the table of doc/results.md. What other pages quote is in QUOTES, and is compared with
-the file.
+differs by more than 3 % is a failure. --write takes new numbers into the file. What
+pages quote is in QUOTES, and is compared with the file.
 """
 import argparse
 import csv
@@ -27,18 +26,12 @@ from lab.curves import final_mean
 
 FILE = ROOT / "doc/scene_results.csv"
 PAGE = ROOT / "doc/results.md"
-BEGIN, END = "<!-- scene results -->\n", "<!-- end of scene results -->\n"
 TOLERANCE = 0.03  # of a number
 NUMBER = r"(\d[\d.,]*)"
 SMALL = 0.02  # of the largest number of its kind; below it, this is the scale
 SHORT_SHARE = 0.01  # of the way, in a short run
 WHOLE, SHORT = "whole", "short"
-# quantity: name in the table
-QUANTITIES = {
-    "total_force_N": "total",
-    "tip_force_N": "tip",
-    "required_suction_Pa": "suction",
-}
+QUANTITIES = "total_force_N", "tip_force_N", "required_suction_Pa"
 AT_END = ("jack", "suction")  # scenes whose numbers at the end are quoted, too
 # what pages say of a scene: page, words with # for the number, scene, quantity,
 # penetration (m), and the unit of the number
@@ -295,40 +288,6 @@ def differences(new: list[Number], old: list[Number]) -> list[str]:
     return found
 
 
-def listed(numbers: list[Number]) -> str:
-    """Return the values of a quantity, forces in kN and suctions in kPa: those at 1, 2,
-    3, ... m, and then the others with their depths."""
-    meters, others = list[str](), list[str]()
-    for n in numbers:
-        unit = 1e-3 if n.quantity[-2:] in ("_N", "Pa") else 1.0
-        text = f"{unit * n.value:.4g}"
-        if n.penetration_m == len(meters) + 1:
-            meters.append(text)
-        elif n.penetration_m > 0:
-            others.append(f"{text} at {n.penetration_m:.4g} m")
-        else:
-            others.append(text)
-    return "; ".join(filter(None, [", ".join(meters), *others]))
-
-
-def page(numbers: list[Number]) -> str:
-    """Return the table of the manual: a row for each scene and quantity."""
-    rows: dict[tuple[str, str], list[Number]] = {}
-    for number in numbers:
-        if number.way == WHOLE:
-            rows.setdefault((number.scene, number.quantity), []).append(number)
-    lines = []
-    for (scene, quantity), values in rows.items():
-        name = QUANTITIES.get(quantity, quantity.replace("_N", "").replace("_", " "))
-        lines.append([f"`prm/{scene}.prm`", name, listed(values)])
-    return table.markdown(["scene", "quantity", "at 1, 2, 3, ... m"], lines) + "\n"
-
-
-def page_is_true(numbers: list[Number], path: Path = PAGE) -> bool:
-    """Return whether the table of the manual is the one of these numbers."""
-    return BEGIN + "\n" + page(numbers) + "\n" + END in path.read_text(encoding="utf-8")
-
-
 def pages() -> list[Path]:
     """Return the pages on which a user finds numbers of scenes."""
     doc = ROOT / "doc"
@@ -378,14 +337,6 @@ def others_of(path: Path) -> int:
     )
 
 
-def write_page(numbers: list[Number], path: Path = PAGE) -> None:
-    """Put the table into the manual."""
-    text = path.read_text(encoding="utf-8")
-    before, rest = text.split(BEGIN)
-    after = rest.split(END)[1]
-    disk.write(path, before + BEGIN + "\n" + page(numbers) + "\n" + END + after)
-
-
 def merged(old: list[Number], new: list[Number]) -> list[Number]:
     """Return the numbers with the scenes and ways of new replaced, in the order of
     the table."""
@@ -422,7 +373,6 @@ def main(options: argparse.Namespace) -> int:
         print(f"{scene}: {took}", flush=True)
         if options.write:
             write(merged(old, new))
-            write_page(read())
     complaints += stale_quotes(read())
     print("\n".join(complaints) or "scenes: all numbers are as the manual has them")
     return 1 if complaints else 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The file and the table of the scenes' results."""
+"""The file of the scenes' results, and what pages quote of it."""
 import re
 import unittest
 from dataclasses import replace
@@ -15,11 +15,7 @@ class Files(unittest.TestCase):
     """What the manual says is what the file says."""
 
     def test_page(self) -> None:
-        """The table of the manual is that of the file."""
-        self.assertTrue(scene_results.page_is_true(scene_results.read()))
-
-    def test_page_with_itself(self) -> None:
-        """Forces beside theory, and the suctions, are those of the table, within 1 %
+        """Forces beside theory, and the suctions, are those of the file, within 1 %
         of the deepest."""
         known = {
             (n.scene, n.quantity, n.penetration_m): n.value / 1e3
