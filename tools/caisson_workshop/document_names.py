@@ -20,7 +20,7 @@ from caisson_workshop.parameter_page import Section, parsed
 # Folders of the tree, and those of the C++ sources, which are named without the
 # folders "source" and "include/caisson_mpm" above them.
 FOLDERS = "prm lab scripts tools tests doc python source include".split()
-FLOORS = "base kernels materials bodies domain operators output restart".split()
+FLOORS = "base kernels materials bodies domain operators water output restart".split()
 # Pages that are generated, or that name what is gone.
 GENERATED_OR_PAST = {"parameters.md", "CHANGELOG.md"}
 NOTES = ROOT / "lab/notes"  # dated: they name what was there then
