@@ -8,6 +8,7 @@ from caisson_workshop.document_names import (
     defaults_of,
     entries_of,
     faults_of,
+    too_many_words,
     wrong_defaults,
 )
 from caisson_workshop.parameter_page import parsed
@@ -96,6 +97,14 @@ class Names(unittest.TestCase):
         self.assertIn("a table without heads: | 0.2 m | 3 kN |", found)
         [comment] = self.faults("The error is 3\n% of the force.\n")
         self.assertIn("percent sign: % of the force", comment)
+
+    def test_words(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            page.write_text("four words\nin all")
+            self.assertEqual(too_many_words("it", [page, page], 8), [])
+            [fault] = too_many_words("it", [page, page], 7)
+            self.assertEqual(fault, "it has 8 words, at most 7")
 
 
 class Defaults(unittest.TestCase):
