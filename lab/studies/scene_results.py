@@ -19,7 +19,6 @@ from caisson import curves, evaluation, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
-from caisson import disk
 from lab import machine
 from lab.checks import checks_of
 from lab.curves import final_mean
