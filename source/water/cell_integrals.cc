@@ -86,7 +86,7 @@ namespace CaissonMPM
   void
   TipIntegral::reinit(const BackgroundGrid &grid,
                       const BodyShape      &shape,
-                      const Mudline        &mudline)
+                      const SoilColumns    &soil_columns)
   {
     cells.clear();
     of_cylinder = shape.expands();
@@ -95,27 +95,29 @@ namespace CaissonMPM
         const int beyond = grid.neighbor(cell, of_cylinder ? 0 : 3);
         if (grid.is_owned(cell) && !grid.is_rigid(cell) && beyond >= 0 &&
             grid.is_rigid(beyond) &&
-            (of_cylinder || mudline.side_of(cell) == Mudline::Side::body))
+            (of_cylinder ||
+             soil_columns.side_of(cell) == SoilColumns::Side::body))
           cells.push_back(cell);
       }
     ledges.clear();
     if (shape.n_parts() > 1)
-      find_ledges(grid, shape, mudline);
+      find_ledges(grid, shape, soil_columns);
   }
 
   void
   TipIntegral::find_ledges(const BackgroundGrid &grid,
                            const BodyShape      &shape,
-                           const Mudline        &mudline)
+                           const SoilColumns    &soil_columns)
   {
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
         if (!grid.is_owned(cell) || grid.is_rigid(cell) ||
-            mudline.side_of(cell) == Mudline::Side::body)
+            soil_columns.side_of(cell) == SoilColumns::Side::body)
           continue;
-        const bool is_inside = mudline.side_of(cell) == Mudline::Side::plug;
-        const int  above     = grid.neighbor(cell, 3),
-                  below      = grid.neighbor(cell, 2);
+        const bool is_inside =
+          soil_columns.side_of(cell) == SoilColumns::Side::plug;
+        const int above = grid.neighbor(cell, 3),
+                  below = grid.neighbor(cell, 2);
         const auto areas =
           areas_of_side(grid.geometry(cell), grid.axisymmetric());
         if (above >= 0 && grid.is_rigid(above) && !grid.is_lid(above))

@@ -109,18 +109,18 @@ namespace CaissonMPM
 
   void
   CellPressureSolver::add_sides(const unsigned int cell,
-                                const Mudline     &mudline,
+                                const SoilColumns &soil_columns,
                                 const OpenSides   &open,
                                 const HeldNodes   &held)
   {
-    const bool in_plug    = mudline.side_of(cell) == Mudline::Side::plug;
+    const bool in_plug = soil_columns.side_of(cell) == SoilColumns::Side::plug;
     const bool is_open[4] = {false,
                              open.outer,
                              open.bottom,
                              in_plug || open.surface};
     for (unsigned int face = 0; face < 4; ++face)
       {
-        if (face == 3 ? !mudline.is_top(cell) : !grid->at_side(cell, face))
+        if (face == 3 ? !soil_columns.is_top(cell) : !grid->at_side(cell, face))
           continue;
         double free_share = free_nodes_of(cell, face, held);
         // A surface within the cell moves with the nodes below it, too, where
@@ -142,12 +142,12 @@ namespace CaissonMPM
   }
 
   void
-  CellPressureSolver::find_faces(const Mudline            &mudline,
+  CellPressureSolver::find_faces(const SoilColumns        &soil_columns,
                                  const OpenSides          &open,
                                  const BoundaryConditions &conditions)
   {
     const HeldNodes held = conditions.held_nodes(grid->n_nodes());
-    filled               = mudline.filled().data();
+    filled               = soil_columns.filled().data();
     cells_.clear();
     faces_.clear();
     has_water.assign(partitioner->locally_owned_size() +
@@ -178,7 +178,7 @@ namespace CaissonMPM
                   add_face(Beyond::cell, cell, other, face);
             }
         if (grid->is_owned(cell))
-          add_sides(cell, mudline, open, held);
+          add_sides(cell, soil_columns, open, held);
       }
     for (const Face &face : faces_)
       if (face.beyond != Beyond::cell && face.is_open)

@@ -193,7 +193,7 @@ namespace CaissonMPM
       {
         find_mudline();
         projection.set_up(scene.grid,
-                          mudline,
+                          soil_columns,
                           soil_in_cells.properties,
                           scene.settings.sides,
                           conditions,
@@ -275,13 +275,13 @@ namespace CaissonMPM
   }
 
   NamedNumbers
-  CoupledWater::columns_with(const Mudline &mudline) const
+  CoupledWater::columns_with(const SoilColumns &soil_columns) const
   {
     NamedNumbers result = extremes.columns();
     result.emplace_back("water_balance",
                         through_surfaces > 0. ? unbalanced / through_surfaces :
                                                 0.);
-    const NamedNumbers of_flow = FlowingWater::columns_with(mudline);
+    const NamedNumbers of_flow = FlowingWater::columns_with(soil_columns);
     result.insert(result.end(), of_flow.begin(), of_flow.end());
     return result;
   }

@@ -110,8 +110,8 @@ namespace CaissonMPM
   {
     if (lid)
       lid->initialize();
-    mudline.initialize(scene.grid, scene.body.shape());
-    tip.reinit(scene.grid, scene.body.shape(), mudline);
+    soil_columns.initialize(scene.grid, scene.body.shape());
+    tip.reinit(scene.grid, scene.body.shape(), soil_columns);
     is_solved        = false;
     steps_since_look = 0;
   }
@@ -119,23 +119,23 @@ namespace CaissonMPM
   void
   FlowingWater::find_mudline()
   {
-    mudline.find(scene.grid, scene.points);
+    soil_columns.find(scene.grid, scene.points);
     if (lid)
-      lid->update_touching(mudline);
+      lid->update_touching(soil_columns);
   }
 
   void
   FlowingWater::find_plug_rate(const Kernels::NodalVector *velocity)
   {
-    if (!lid || !lid->is_sealed() || !mudline.is_found())
+    if (!lid || !lid->is_sealed() || !soil_columns.is_found())
       return;
     double sum = 0.;
     for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
       {
-        const double filled = mudline.filled()[cell];
+        const double filled = soil_columns.filled()[cell];
         if (!scene.grid.is_owned(cell) || filled <= 0. ||
-            !mudline.is_top(cell) ||
-            mudline.side_of(cell) != Mudline::Side::plug)
+            !soil_columns.is_top(cell) ||
+            soil_columns.side_of(cell) != SoilColumns::Side::plug)
           continue;
         // the vertical velocity at the surface of the soil, linear in r
         const auto           &g    = scene.grid.geometry(cell);
@@ -155,7 +155,7 @@ namespace CaissonMPM
   FlowingWater::finish_flow()
   {
     if (lid)
-      lid->plug().start(mudline);
+      lid->plug().start(soil_columns);
     has_started = true;
   }
 
@@ -167,14 +167,14 @@ namespace CaissonMPM
   {
     this->time = time + dt;
     if (lid)
-      lid->end_step(this->time, dt, force_on_body, mudline, flow());
+      lid->end_step(this->time, dt, force_on_body, soil_columns, flow());
     return 0.;
   }
 
   std::string
   FlowingWater::reason_to_end() const
   {
-    return lid ? lid->reason_to_end(is_solved ? &mudline : nullptr) : "";
+    return lid ? lid->reason_to_end(is_solved ? &soil_columns : nullptr) : "";
   }
 
   const std::vector<double> &
@@ -217,10 +217,10 @@ namespace CaissonMPM
   {
     prepare_columns();
     if (is_solved && lid && flow().flows)
-      lid->plug().find_exit_gradient(mudline,
+      lid->plug().find_exit_gradient(soil_columns,
                                      soil_in_cells.of_flow(),
                                      outflow());
-    Mudline now = mudline;
+    SoilColumns now = soil_columns;
     now.find(scene.grid, scene.points);
     if (lid)
       lid->update_limits(now, flow());
@@ -228,11 +228,11 @@ namespace CaissonMPM
   }
 
   NamedNumbers
-  FlowingWater::columns_with(const Mudline &mudline) const
+  FlowingWater::columns_with(const SoilColumns &soil_columns) const
   {
     const WaterFlow now = flow();
     if (lid)
-      return lid->columns(mudline, now);
+      return lid->columns(soil_columns, now);
     return {{"tip_water_force_N", now.tip_force},
             {"net_outflow_m3_s", -now.scale * now.in},
             {"flow_iterations", 1. * now.n_iterations}};
@@ -243,7 +243,7 @@ namespace CaissonMPM
   {
     std::vector<std::string> warnings;
     if (lid)
-      lid->warn(place_in_words(), mudline, flow(), warnings);
+      lid->warn(place_in_words(), soil_columns, flow(), warnings);
     return warnings;
   }
 
@@ -259,8 +259,8 @@ namespace CaissonMPM
   void
   FlowingWater::continue_after(const std::string &, const NamedFields &)
   {
-    mudline.find(scene.grid, scene.points);
+    soil_columns.find(scene.grid, scene.points);
     if (lid)
-      lid->continue_after(mudline);
+      lid->continue_after(soil_columns);
   }
 } // namespace CaissonMPM

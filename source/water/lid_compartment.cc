@@ -78,18 +78,18 @@ namespace CaissonMPM
   }
 
   void
-  LidCompartment::continue_after(const Mudline &mudline)
+  LidCompartment::continue_after(const SoilColumns &soil_columns)
   {
     if (!is_sealed())
       sealed = SealedLid(); // an open lid keeps no cavity
     const double travel = scene.body.motion().travel();
-    volume_at_start =
-      plug_.area() * (travel + plug_.heave(mudline)) + suction_.gas_expansion();
+    volume_at_start     = plug_.area() * (travel + plug_.heave(soil_columns)) +
+                      suction_.gas_expansion();
     suction_.continue_at(plug_.area() * (travel + recent_heave.value()));
   }
 
   void
-  LidCompartment::update_touching(const Mudline &now)
+  LidCompartment::update_touching(const SoilColumns &now)
   {
     if (!scene.body.shape().has_lid())
       return;
@@ -101,15 +101,15 @@ namespace CaissonMPM
   LidCompartment::open(Contact &contact) const
   {
     if (scene.body.shape().has_lid())
-      contact.open_lid(filled, Mudline::touching);
+      contact.open_lid(filled, SoilColumns::touching);
   }
 
   void
-  LidCompartment::end_step(const double     time,
-                           const double     dt,
-                           const double     force_on_body,
-                           const Mudline   &mudline,
-                           const WaterFlow &flow)
+  LidCompartment::end_step(const double       time,
+                           const double       dt,
+                           const double       force_on_body,
+                           const SoilColumns &soil_columns,
+                           const WaterFlow   &flow)
   {
     seepage_volume += dt * flow.scale * flow.out;
     // A body that is lowered rests before the pump starts.
@@ -118,9 +118,9 @@ namespace CaissonMPM
       time_of_suction += motion.travel_at_rest() ? dt : 0.;
     else
       time_of_suction = time;
-    recent_heave.add(dt, time_of_heave, plug_.heave(mudline));
+    recent_heave.add(dt, time_of_heave, plug_.heave(soil_columns));
     if (is_sealed())
-      advance_sealed(dt, mudline, flow);
+      advance_sealed(dt, soil_columns, flow);
     suction_.advance(time_of_suction,
                      dt,
                      {-force_on_body + flow.tip_resistance,
@@ -132,15 +132,16 @@ namespace CaissonMPM
   }
 
   void
-  LidCompartment::advance_sealed(const double     dt,
-                                 const Mudline   &mudline,
-                                 const WaterFlow &flow)
+  LidCompartment::advance_sealed(const double       dt,
+                                 const SoilColumns &soil_columns,
+                                 const WaterFlow   &flow)
   {
     const double displaced = plug_.area() * scene.body.motion().travel();
     if (!sealed.has_started())
       sealed.start(suction(),
-                   plug_.area() * (height_of_lid() -
-                                   mudline.mean_height(Mudline::Side::plug)) -
+                   plug_.area() *
+                       (height_of_lid() -
+                        soil_columns.mean_height(SoilColumns::Side::plug)) -
                      sealed.cavity(),
                    displaced);
     sealed.advance(dt,
@@ -151,7 +152,7 @@ namespace CaissonMPM
   }
 
   void
-  LidCompartment::update_limits(const Mudline &now, const WaterFlow &flow)
+  LidCompartment::update_limits(const SoilColumns &now, const WaterFlow &flow)
   {
     if (flow.flows)
       plug_.find_withstood(now);
@@ -181,14 +182,15 @@ namespace CaissonMPM
   }
 
   NamedNumbers
-  LidCompartment::columns(const Mudline &mudline, const WaterFlow &flow)
+  LidCompartment::columns(const SoilColumns &soil_columns,
+                          const WaterFlow   &flow)
   {
     // only the names are wanted before the flow is known
-    const auto at_wall = [&](const Mudline::Side side) {
-      return mudline.is_found() ? mudline.height_at_wall(side) : 0.;
+    const auto at_wall = [&](const SoilColumns::Side side) {
+      return soil_columns.is_found() ? soil_columns.height_at_wall(side) : 0.;
     };
-    const NamedNumbers balance = plug_.balance(mudline);
-    const double       rise    = plug_.heave(mudline);
+    const NamedNumbers balance = plug_.balance(soil_columns);
+    const double       rise    = plug_.heave(soil_columns);
     NamedNumbers       result  = {{"suction_Pa", suction()},
                                   {"cavitation_suction_Pa",
                                    suction_.cavitation(height_of_lid())},
@@ -206,8 +208,8 @@ namespace CaissonMPM
            {"seepage_inflow_m3_s", flow.scale * flow.in},
            {"seepage_volume_m3", seepage_volume}});
     add({{"plug_heave_m", rise},
-         {"mudline_at_inner_wall_m", at_wall(Mudline::Side::plug)},
-         {"mudline_at_outer_wall_m", at_wall(Mudline::Side::beyond)},
+         {"mudline_at_inner_wall_m", at_wall(SoilColumns::Side::plug)},
+         {"mudline_at_outer_wall_m", at_wall(SoilColumns::Side::beyond)},
          {"flow_iterations", 1. * flow.n_iterations}});
     add(balance);
     if (is_sealed())
@@ -227,11 +229,11 @@ namespace CaissonMPM
 
   void
   LidCompartment::warn(const std::string        &where,
-                       const Mudline            &mudline,
+                       const SoilColumns        &soil_columns,
                        const WaterFlow          &flow,
                        std::vector<std::string> &warnings)
   {
-    plug_.warn(where, mudline, flow.scale, suction(), warnings);
+    plug_.warn(where, soil_columns, flow.scale, suction(), warnings);
     if (holds_first(has_warned_of_cavity, sealed.cavity() > 0.))
       warnings.push_back(
         "water boils beneath the sealed lid" + where + ", at a suction of " +
@@ -241,7 +243,7 @@ namespace CaissonMPM
   }
 
   std::string
-  LidCompartment::reason_to_end(const Mudline *mudline) const
+  LidCompartment::reason_to_end(const SoilColumns *soil_columns) const
   {
     if (scene.body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its "
@@ -254,8 +256,8 @@ namespace CaissonMPM
     if (touched >= full_lid)
       return "the plug fills the caisson: soil bears on " +
              percent(full_lid, 2) + " of the lid" + refusal;
-    if (mudline != nullptr &&
-        mudline->mean_height(Mudline::Side::plug) >= height_of_lid())
+    if (soil_columns != nullptr &&
+        soil_columns->mean_height(SoilColumns::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "
              "the skirt where the mesh has no lid" +
              refusal;

@@ -37,12 +37,12 @@ namespace CaissonMPM
   }
 
   void
-  Plug::start(const Mudline &mudline)
+  Plug::start(const SoilColumns &soil_columns)
   {
     if (has_started)
       return;
     has_started     = true;
-    height_at_start = mudline.mean_height(Mudline::Side::plug);
+    height_at_start = soil_columns.mean_height(SoilColumns::Side::plug);
     volume_at_start = find_volume();
   }
 
@@ -54,19 +54,19 @@ namespace CaissonMPM
   }
 
   double
-  Plug::heave(const Mudline &mudline) const
+  Plug::heave(const SoilColumns &soil_columns) const
   {
-    return has_started && mudline.is_found() ?
-             mudline.mean_height(Mudline::Side::plug) - height_at_start +
-               lost_by_clay / area() :
+    return has_started && soil_columns.is_found() ?
+             soil_columns.mean_height(SoilColumns::Side::plug) -
+               height_at_start + lost_by_clay / area() :
              0.;
   }
 
   double
-  Plug::extra_heave(const Mudline &mudline) const
+  Plug::extra_heave(const SoilColumns &soil_columns) const
   {
     const double outer = scene.body.shape().right(), all = pi * outer * outer;
-    return heave(mudline) -
+    return heave(soil_columns) -
            scene.body.motion().travel() * (all - area()) / area();
   }
 
@@ -106,7 +106,7 @@ namespace CaissonMPM
   }
 
   NamedNumbers
-  Plug::balance(const Mudline &mudline)
+  Plug::balance(const SoilColumns &soil_columns)
   {
     double inflow = 0., dilation = 0.;
     if (has_started)
@@ -118,7 +118,7 @@ namespace CaissonMPM
         dilation =
           now.present - volume_at_start.present - inflow + lost_by_clay;
       }
-    const double rise = area() * heave(mudline);
+    const double rise = area() * heave(soil_columns);
     const double largest =
       std::max({std::abs(rise), std::abs(inflow), std::abs(dilation)});
     const double error = rise - inflow - dilation;
@@ -156,7 +156,7 @@ namespace CaissonMPM
     /** The outlets at the nodes of all ranks, from the axis to the wall. */
     std::vector<Outlet>
     find_outlets(const BackgroundGrid           &grid,
-                 const Mudline                  &mudline,
+                 const SoilColumns              &soil_columns,
                  const std::vector<Conductance> &permeability,
                  const NodalData                &outflow)
     {
@@ -164,8 +164,8 @@ namespace CaissonMPM
       grid.reinit(conductivity, 1);
       for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
         {
-          if (!grid.is_owned(cell) || !mudline.is_top(cell) ||
-              mudline.side_of(cell) != Mudline::Side::plug)
+          if (!grid.is_owned(cell) || !soil_columns.is_top(cell) ||
+              soil_columns.side_of(cell) != SoilColumns::Side::plug)
             continue;
           const auto &node = grid.cell_nodes(cell).node;
           const auto  area =
@@ -216,12 +216,12 @@ namespace CaissonMPM
   } // namespace
 
   void
-  Plug::find_exit_gradient(const Mudline                  &mudline,
+  Plug::find_exit_gradient(const SoilColumns              &soil_columns,
                            const std::vector<Conductance> &permeability,
                            const NodalData                &outflow)
   {
     const auto outlets =
-      find_outlets(scene.grid, mudline, permeability, outflow);
+      find_outlets(scene.grid, soil_columns, permeability, outflow);
     exit_ = {};
     if (!outlets.empty())
       exit_ = {gradient_at_wall(outlets,
@@ -242,11 +242,11 @@ namespace CaissonMPM
   // ------------------------------------------------------------ strength
 
   void
-  Plug::find_withstood(const Mudline &mudline)
+  Plug::find_withstood(const SoilColumns &soil_columns)
   {
-    withstood_             = {};
-    const double wall      = scene.body.shape().left(),
-                 top       = mudline.height_at_wall(Mudline::Side::plug),
+    withstood_        = {};
+    const double wall = scene.body.shape().left(),
+                 top  = soil_columns.height_at_wall(SoilColumns::Side::plug),
                  embedment = top + scene.body.penetration(),
                  width     = .5 * embedment,
                  gamma_w   = scene.soil.unit_weight_of_water();
@@ -301,7 +301,7 @@ namespace CaissonMPM
 
   void
   Plug::warn(const std::string        &where,
-             const Mudline            &mudline,
+             const SoilColumns        &soil_columns,
              const double              scale,
              const double              suction,
              std::vector<std::string> &warnings)
@@ -321,7 +321,8 @@ namespace CaissonMPM
         ": the flow carries nearly all of the soil. Piping may begin, which "
         "the program does not follow");
     if (holds_first(has_warned_of_lift,
-                    extra_heave(mudline) > .02 * scene.body.shape().right()))
+                    extra_heave(soil_columns) >
+                      .02 * scene.body.shape().right()))
       warnings.push_back(
         suction > 0. ?
           "the suction lifts the plug" + where +

@@ -147,8 +147,8 @@ namespace CaissonMPM
   }
 
   void
-  PressureProjection::set_up(const BackgroundGrid               &grid,
-                             const Mudline                      &mudline_now,
+  PressureProjection::set_up(const BackgroundGrid &grid,
+                             const SoilColumns    &soil_columns_now,
                              const std::vector<WaterProperties> &properties,
                              const OpenSides                    &sides,
                              const BoundaryConditions           &conditions,
@@ -158,9 +158,9 @@ namespace CaissonMPM
     // once what a whole step would do.
     long_step       = std::max(dt, step);
     step            = dt;
-    mudline         = &mudline_now;
-    at_nodes.beyond = mudline->find_beyond(grid, sides);
-    solver_.find_faces(*mudline, sides, conditions);
+    soil_columns    = &soil_columns_now;
+    at_nodes.beyond = soil_columns->find_beyond(grid, sides);
+    solver_.find_faces(*soil_columns, sides, conditions);
     CellIntegrals integrals(grid);
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       if (!grid.is_rigid(cell))
@@ -176,7 +176,7 @@ namespace CaissonMPM
   {
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       {
-        const bool         is_wet  = mudline->filled()[cell] > 0.;
+        const bool         is_wet  = soil_columns->filled()[cell] > 0.;
         const unsigned int place   = solver_.place(cell);
         double            &was_wet = wet_.local_element(place);
         if (is_wet && was_wet == 0.)
@@ -188,7 +188,9 @@ namespace CaissonMPM
   double
   PressureProjection::pressure_above(const unsigned int cell) const
   {
-    return mudline->side_of(cell) == Mudline::Side::plug ? known_.plug : 0.;
+    return soil_columns->side_of(cell) == SoilColumns::Side::plug ?
+             known_.plug :
+             0.;
   }
 
   void
@@ -198,7 +200,7 @@ namespace CaissonMPM
       {
         if (grid->is_rigid(cell))
           continue;
-        const double filled = mudline->filled()[cell];
+        const double filled = soil_columns->filled()[cell];
         const double above  = pressure_above(cell);
         acting[cell]        = filled > 0. ?
                                 filled * pressure_in(cell) + (1. - filled) * above :
@@ -274,7 +276,7 @@ namespace CaissonMPM
     for (const unsigned int cell : solver_.cells())
       {
         const unsigned int i = solver_.place(cell);
-        const double       x = mudline->filled()[cell];
+        const double       x = soil_columns->filled()[cell];
         source.local_element(i) += remainder_.local_element(i) / long_step -
                                    x * volumes[cell] * volume_rates_[cell];
         source.local_element(i) *= share_of_own(x);
@@ -339,8 +341,8 @@ namespace CaissonMPM
     faces_below.assign(faces.size(), {{-1, -1}});
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (faces[f].is_horizontal && faces[f].beyond != Beyond::cell &&
-          mudline->is_top(faces[f].cell) &&
-          mudline->filled()[faces[f].cell] < well_filled)
+          soil_columns->is_top(faces[f].cell) &&
+          soil_columns->filled()[faces[f].cell] < well_filled)
         faces_below[f] = {{below[0][faces[f].cell], below[1][faces[f].cell]}};
   }
 
@@ -420,7 +422,7 @@ namespace CaissonMPM
         const double                 size = std::sqrt(g.width * height_of(g));
         const double                 conductance =
           mobility[1].local_element(solver_.place(cell)) /
-          (mudline->filled()[cell] * size);
+          (soil_columns->filled()[cell] * size);
         for (const unsigned int node : grid->cell_nodes(cell).node)
           {
             at_nodes.pressure.local_element(node) +=

@@ -101,7 +101,7 @@ namespace CaissonMPM
     // the soil of a cell that the mudline cuts is in its lower part
     for (const unsigned int cell : solver_.cells())
       {
-        const double x = mudline->filled()[cell];
+        const double x = soil_columns->filled()[cell];
         for (unsigned int j = 0; j < 4; ++j)
           v.local_element(grid->cell_nodes(cell).node[j]) +=
             (j < 2 ? x * (2. - x) : x * x) * shares[cell][j];
@@ -111,7 +111,7 @@ namespace CaissonMPM
     // the mass of a node at the mudline is that of few points, however the
     // soil lies there, and share_of_own() takes care of it
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
-      if (mudline->filled()[cell] > 0. && mudline->is_top(cell))
+      if (soil_columns->filled()[cell] > 0. && soil_columns->is_top(cell))
         for (const unsigned int j : {2, 3})
           if (const unsigned int node = grid->cell_nodes(cell).node[j];
               node < grid->n_owned_nodes())

@@ -49,16 +49,16 @@ namespace CaissonMPM
   }
 
   void
-  Seepage::find_states(const Mudline &mudline, const OpenSides &sides)
+  Seepage::find_states(const SoilColumns &soil_columns, const OpenSides &sides)
   {
-    const auto beyond = mudline.find_beyond(*grid, sides);
+    const auto beyond = soil_columns.find_beyond(*grid, sides);
     states.zero_out_ghost_values();
     for (unsigned int node = 0; node < grid->n_nodes(); ++node)
       states.local_element(node) = no_water;
     cells.clear();
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       {
-        if (mudline.filled()[cell] == 0.)
+        if (soil_columns.filled()[cell] == 0.)
           continue;
         if (grid->is_owned(cell))
           cells.push_back(cell);
@@ -166,12 +166,12 @@ namespace CaissonMPM
   }
 
   void
-  Seepage::solve(const Mudline                  &mudline,
+  Seepage::solve(const SoilColumns              &soil_columns,
                  const std::vector<Conductance> &permeability,
                  const OpenSides                &sides)
   {
     // 1. the matrices of the cells, with entries of order one
-    find_states(mudline, sides);
+    find_states(soil_columns, sides);
     double scale = 0.;
     for (unsigned int cell = 0; cell < grid->n_cells(); ++cell)
       if (grid->is_owned(cell))
@@ -182,7 +182,7 @@ namespace CaissonMPM
     matrices.clear();
     for (const unsigned int cell : cells)
       {
-        const double      filled = mudline.filled()[cell];
+        const double      filled = soil_columns.filled()[cell];
         const Conductance k      = {permeability[cell].horizontal * filled,
                                     permeability[cell].vertical / filled};
         integrals.reinit(cell);

@@ -130,11 +130,11 @@ namespace CaissonMPM
       return false;
     if (++steps_since_look < Intervals::mudline)
       return true;
-    Mudline now = mudline;
+    SoilColumns now = soil_columns;
     now.find(scene.grid, scene.points);
     lid->update_touching(now);
     steps_since_look = 0;
-    return dealii::Utilities::MPI::max(now.largest_change(mudline),
+    return dealii::Utilities::MPI::max(now.largest_change(soil_columns),
                                        scene.grid.communicator()) < renewal;
   }
 
@@ -144,7 +144,9 @@ namespace CaissonMPM
     find_mudline();
     is_of_overpressure = suction() < 0.;
     find_permeability();
-    seepage.solve(mudline, soil_in_cells.permeability, scene.settings.sides);
+    seepage.solve(soil_columns,
+                  soil_in_cells.permeability,
+                  scene.settings.sides);
     if (!is_of_overpressure && !tip_is_in_clay())
       fill_clay_of_plug();
     tip.integrate(
@@ -155,7 +157,7 @@ namespace CaissonMPM
       },
       1.,
       [this](const unsigned int cell) {
-        return mudline.filled()[cell] >= Mudline::touching ? 1. : 0.;
+        return soil_columns.filled()[cell] >= SoilColumns::touching ? 1. : 0.;
       });
     const auto sums  = seepage.sums_of_plug_and_open();
     flow_out         = sums[0];
@@ -197,7 +199,7 @@ namespace CaissonMPM
   SteadySeepage::is_in_plug(const unsigned int cell) const
   {
     const auto &g = scene.grid.geometry(cell);
-    return mudline.side_of(cell) == Mudline::Side::plug &&
+    return soil_columns.side_of(cell) == SoilColumns::Side::plug &&
            g.bottom_left + .5 * g.height_left > -scene.body.penetration();
   }
 
@@ -209,7 +211,7 @@ namespace CaissonMPM
     for (NodalData *const v : {&of_clay, &of_rest})
       scene.grid.reinit(*v, 1);
     for (unsigned int cell = 0; cell < scene.grid.n_cells(); ++cell)
-      if (scene.grid.is_owned(cell) && mudline.filled()[cell] > 0.)
+      if (scene.grid.is_owned(cell) && soil_columns.filled()[cell] > 0.)
         for (const unsigned int node : scene.grid.cell_nodes(cell).node)
           (soil_in_cells.is_clay[cell] && is_in_plug(cell) ? of_clay : of_rest)
             .local_element(node) = 1.;

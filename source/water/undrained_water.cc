@@ -58,7 +58,7 @@ namespace CaissonMPM
   void
   UndrainedWater::reinit()
   {
-    Mudline columns; // its columns only: no height is asked for
+    SoilColumns columns; // its columns only: no height is asked for
     columns.initialize(scene.grid, scene.body.shape());
     tip.reinit(scene.grid, scene.body.shape(), columns);
     pressure.clear();

@@ -8,7 +8,7 @@
 #define caisson_mpm_water_cell_integrals_h
 
 #include <caisson_mpm/domain/background_grid.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/soil_columns.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -72,12 +72,12 @@ namespace CaissonMPM
   class TipIntegral
   {
   public:
-    /** Find the cells of this rank at the tip; @p mudline knows the columns
+    /** Find the cells of this rank at the tip; @p soil_columns knows the columns
      * below the body. Not collective. */
     void
     reinit(const BackgroundGrid &grid,
            const BodyShape      &shape,
-           const Mudline        &mudline);
+           const SoilColumns    &soil_columns);
 
     /** Integrate value(cell, corner), which is @p in_plug in the water under
      * the lid, over the tip, and over the share(cell) of a step or ring that
@@ -150,7 +150,7 @@ namespace CaissonMPM
     void
     find_ledges(const BackgroundGrid &grid,
                 const BodyShape      &shape,
-                const Mudline        &mudline);
+                const SoilColumns    &soil_columns);
 
     std::vector<unsigned int> cells;
     std::vector<Ledge>        ledges;

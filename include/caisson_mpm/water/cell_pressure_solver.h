@@ -9,7 +9,7 @@
 
 #include <caisson_mpm/operators/boundary_conditions.h>
 #include <caisson_mpm/water/kept_multigrid.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/soil_columns.h>
 
 #include <deal.II/dofs/dof_handler.h>
 
@@ -55,7 +55,7 @@ namespace CaissonMPM
      * that are open or give way. Where two cells share a face, and
      * one of them belongs to another rank, both ranks know it. */
     void
-    find_faces(const Mudline            &mudline,
+    find_faces(const SoilColumns        &soil_columns,
                const OpenSides          &open,
                const BoundaryConditions &conditions);
 
@@ -138,7 +138,7 @@ namespace CaissonMPM
      * where they are open or give way. */
     void
     add_sides(const unsigned int cell,
-              const Mudline     &mudline,
+              const SoilColumns &soil_columns,
               const OpenSides   &open,
               const HeldNodes   &held);
     /** Return the share of the nodes of a face that may move across it. */

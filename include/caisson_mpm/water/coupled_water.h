@@ -79,7 +79,7 @@ namespace CaissonMPM
     void
     prepare_columns() override;
     NamedNumbers
-    columns_with(const Mudline &mudline) const override;
+    columns_with(const SoilColumns &soil_columns) const override;
     /** Throws BadInput where the text cannot be parsed. */
     Expression
     bottom_expression() const;

@@ -92,7 +92,7 @@ namespace CaissonMPM
     const std::vector<double> &
     filled() const
     {
-      return mudline.filled();
+      return soil_columns.filled();
     }
 
     /** The suction beneath the lid, 0 without one. Units: Pa. */
@@ -127,14 +127,14 @@ namespace CaissonMPM
     prepare_columns()
     {}
 
-    /** Return the numbers of a record with the present @p mudline. */
+    /** Return the numbers of a record with the present @p soil_columns. */
     virtual NamedNumbers
-    columns_with(const Mudline &mudline) const;
+    columns_with(const SoilColumns &soil_columns) const;
 
     NamedNumbers
     present_columns() const override
     {
-      return columns_with(mudline);
+      return columns_with(soil_columns);
     }
 
     /** Find the mudline, and where it touches the lid. Collective. */
@@ -150,7 +150,7 @@ namespace CaissonMPM
     void
     finish_flow();
 
-    Mudline                         mudline;
+    SoilColumns                     soil_columns;
     PermeabilityField               soil_in_cells;
     TipIntegral                     tip;
     std::unique_ptr<LidCompartment> lid;                      // of a caisson

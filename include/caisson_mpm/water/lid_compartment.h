@@ -108,11 +108,11 @@ namespace CaissonMPM
 
     /** Continue after another run. */
     void
-    continue_after(const Mudline &mudline);
+    continue_after(const SoilColumns &soil_columns);
 
     /** Find where the soil touches the lid. Collective. */
     void
-    update_touching(const Mudline &now);
+    update_touching(const SoilColumns &now);
 
     /** Let the lid touch soil only where the plug has reached it. */
     void
@@ -120,11 +120,11 @@ namespace CaissonMPM
 
     /** Continue by a step, at the end of which it is @p time. Units: s, N. */
     void
-    end_step(const double     time,
-             const double     dt,
-             const double     force_on_body,
-             const Mudline   &mudline,
-             const WaterFlow &flow);
+    end_step(const double       time,
+             const double       dt,
+             const double       force_on_body,
+             const SoilColumns &soil_columns,
+             const WaterFlow   &flow);
 
     double
     suction() const
@@ -154,7 +154,7 @@ namespace CaissonMPM
     /** Compute which gradients the plug withstands, and whether the
      * installation is still feasible. Collective. */
     void
-    update_limits(const Mudline &now, const WaterFlow &flow);
+    update_limits(const SoilColumns &now, const WaterFlow &flow);
 
     /** Return from where on the installation is not feasible, and why. */
     std::optional<Feasibility::Place>
@@ -162,19 +162,19 @@ namespace CaissonMPM
 
     /** Return the numbers of a record. Collective. */
     NamedNumbers
-    columns(const Mudline &mudline, const WaterFlow &flow);
+    columns(const SoilColumns &soil_columns, const WaterFlow &flow);
 
     /** Append warnings of the plug. @p where: at which penetration. */
     void
     warn(const std::string        &where,
-         const Mudline            &mudline,
+         const SoilColumns        &soil_columns,
          const WaterFlow          &flow,
          std::vector<std::string> &warnings);
 
-    /** Return why the run cannot continue, or an empty text. @p mudline: null
+    /** Return why the run cannot continue, or an empty text. @p soil_columns: null
      * before the flow is known. */
     std::string
-    reason_to_end(const Mudline *mudline) const;
+    reason_to_end(const SoilColumns *soil_columns) const;
 
     /** Return what a run prints at its beginning. */
     std::string
@@ -186,9 +186,9 @@ namespace CaissonMPM
     height_of_lid() const;
     /** Continue the water beneath a sealed lid by a step. */
     void
-                        advance_sealed(const double     dt,
-                                       const Mudline   &mudline,
-                                       const WaterFlow &flow);
+                        advance_sealed(const double       dt,
+                                       const SoilColumns &soil_columns,
+                                       const WaterFlow   &flow);
     const WaterScene    scene;
     Suction             suction_;
     SealedLid           sealed;

@@ -6,8 +6,8 @@
 #define caisson_mpm_water_plug_h
 
 #include <caisson_mpm/water/cell_integrals.h>
-#include <caisson_mpm/water/mudline.h>
 #include <caisson_mpm/water/pore_water.h>
+#include <caisson_mpm/water/soil_columns.h>
 
 #include <string>
 #include <vector>
@@ -69,10 +69,10 @@ namespace CaissonMPM
   public:
     explicit Plug(const WaterScene &scene);
 
-    /** Remember the soil below the @p mudline; only the first call counts.
+    /** Remember the soil below the @p soil_columns; only the first call counts.
      * Collective. */
     void
-    start(const Mudline &mudline);
+    start(const SoilColumns &soil_columns);
 
     /** The area within the wall. Units: m2. */
     double
@@ -82,10 +82,10 @@ namespace CaissonMPM
      * last balance(), and how far beyond what the soil that the wall displaces
      * would make it rise. Units: m. */
     double
-    heave(const Mudline &mudline) const;
+    heave(const SoilColumns &soil_columns) const;
 
     double
-    extra_heave(const Mudline &mudline) const;
+    extra_heave(const SoilColumns &soil_columns) const;
 
     /**
      * Find the exit gradient of the flow @p outflow [n_nodes] out of the nodes,
@@ -97,14 +97,14 @@ namespace CaissonMPM
      * of cells, hardly matter. @p permeability [n_cells] in m/s. Collective.
      */
     void
-    find_exit_gradient(const Mudline                  &mudline,
+    find_exit_gradient(const SoilColumns              &soil_columns,
                        const std::vector<Conductance> &permeability,
                        const NodalData                &outflow);
 
     /** Find which gradients the plug withstands; zeros where it has no point.
      * Collective. */
     void
-    find_withstood(const Mudline &mudline);
+    find_withstood(const SoilColumns &soil_columns);
 
     /** The last exit gradient, over the scale of its flow. */
     const ExitGradient &
@@ -128,13 +128,13 @@ namespace CaissonMPM
     /** Return the columns of the balance; all names and zeros before start().
      * Collective. */
     NamedNumbers
-    balance(const Mudline &mudline);
+    balance(const SoilColumns &soil_columns);
 
     /** Append warnings of piping and lift at a flow of this @p scale. @p where:
      * at which penetration. */
     void
     warn(const std::string        &where,
-         const Mudline            &mudline,
+         const SoilColumns        &soil_columns,
          const double              scale,
          const double              suction,
          std::vector<std::string> &warnings);

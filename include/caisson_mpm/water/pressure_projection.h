@@ -56,7 +56,7 @@ namespace CaissonMPM
      * read of the cells of this rank. */
     void
     set_up(const BackgroundGrid               &grid,
-           const Mudline                      &mudline,
+           const SoilColumns                  &soil_columns,
            const std::vector<WaterProperties> &properties,
            const OpenSides                    &sides,
            const BoundaryConditions           &conditions,
@@ -228,8 +228,8 @@ namespace CaissonMPM
     double
     outflow_through(const std::size_t side) const;
 
-    const BackgroundGrid *grid    = nullptr;
-    const Mudline        *mudline = nullptr;
+    const BackgroundGrid *grid         = nullptr;
+    const SoilColumns    *soil_columns = nullptr;
     CellPressureSolver    solver_;
     double                step = 0., long_step = 0., scale = 1.;
     Flow                  flow_;

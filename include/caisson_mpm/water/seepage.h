@@ -11,7 +11,7 @@
 
 #include <caisson_mpm/water/cell_integrals.h>
 #include <caisson_mpm/water/kept_multigrid.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/soil_columns.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -41,7 +41,7 @@ namespace CaissonMPM
      * does not converge.
      */
     void
-    solve(const Mudline                  &mudline,
+    solve(const SoilColumns              &soil_columns,
           const std::vector<Conductance> &permeability,
           const OpenSides                &sides);
 
@@ -93,7 +93,7 @@ namespace CaissonMPM
 
     /** Find the states of the nodes, and the cells with water. */
     void
-    find_states(const Mudline &mudline, const OpenSides &sides);
+    find_states(const SoilColumns &soil_columns, const OpenSides &sides);
 
     void
     assemble();

@@ -5,7 +5,7 @@
 #define caisson_mpm_water_water_settings_h
 
 #include <caisson_mpm/base/section.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/soil_columns.h>
 #include <caisson_mpm/water/suction.h>
 
 #include <deque>

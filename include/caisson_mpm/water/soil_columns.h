@@ -2,8 +2,8 @@
 //
 // Where the soil ends and free water begins: the height of the soil in each
 // column of the mesh, and how far each cell is filled with soil.
-#ifndef caisson_mpm_water_mudline_h
-#define caisson_mpm_water_mudline_h
+#ifndef caisson_mpm_water_soil_columns_h
+#define caisson_mpm_water_soil_columns_h
 
 #include <caisson_mpm/bodies/body_shape.h>
 #include <caisson_mpm/domain/background_grid.h>
@@ -50,7 +50,7 @@ namespace CaissonMPM
    * Below the mudline every cell that is not the body's belongs to the ground
    * water, also if a gap beside the wall has no point in it.
    */
-  class Mudline
+  class SoilColumns
   {
   public:
     /** Where the pore water of a column ends. */
@@ -118,7 +118,7 @@ namespace CaissonMPM
     /** Return the largest change of a height against those of @p other, over
      * the height of the cells there. */
     double
-    largest_change(const Mudline &other) const;
+    largest_change(const SoilColumns &other) const;
 
     /** Return the share of the lid's area that the soil touches, 0 where the
      * mesh has no lid. Collective. */

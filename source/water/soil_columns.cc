@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <caisson_mpm/domain/cell_geometry.h>
 #include <caisson_mpm/kernels/cell_map.h>
-#include <caisson_mpm/water/mudline.h>
+#include <caisson_mpm/water/soil_columns.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -30,7 +30,7 @@ namespace CaissonMPM
   } // namespace
 
   void
-  Mudline::initialize(const BackgroundGrid &grid, const BodyShape &body)
+  SoilColumns::initialize(const BackgroundGrid &grid, const BodyShape &body)
   {
     const GridLines &lines = grid.lines();
     axisymmetric           = grid.axisymmetric();
@@ -87,10 +87,10 @@ namespace CaissonMPM
       }
   }
 
-  Mudline::Side
-  Mudline::side_above_step(const GridLines &lines,
-                           const BodyShape &body,
-                           const GlobalCell cell)
+  SoilColumns::Side
+  SoilColumns::side_above_step(const GridLines &lines,
+                               const BodyShape &body,
+                               const GlobalCell cell)
   {
     const auto g = lines.initial_geometry(cell);
     if (lines.is_body_cell(cell) || body.n_parts() == 1 ||
@@ -103,9 +103,9 @@ namespace CaissonMPM
     return Side::beyond;
   }
 
-  std::vector<Mudline::Top>
-  Mudline::find_tops(const BackgroundGrid &grid,
-                     const MaterialPoints &points) const
+  std::vector<SoilColumns::Top>
+  SoilColumns::find_tops(const BackgroundGrid &grid,
+                         const MaterialPoints &points) const
   {
     // the highest cell of each column that this rank has, and the one below:
     // points at the top may be in either
@@ -149,7 +149,7 @@ namespace CaissonMPM
   }
 
   void
-  Mudline::find(const BackgroundGrid &grid, const MaterialPoints &points)
+  SoilColumns::find(const BackgroundGrid &grid, const MaterialPoints &points)
   {
     heights.assign(sides.size(), nowhere);
     const auto tops            = find_tops(grid, points);
@@ -182,7 +182,7 @@ namespace CaissonMPM
   }
 
   void
-  Mudline::fill_cells(const BackgroundGrid &grid)
+  SoilColumns::fill_cells(const BackgroundGrid &grid)
   {
     filled_.assign(grid.n_cells(), 0.);
     top.assign(grid.n_cells(), 0);
@@ -211,7 +211,7 @@ namespace CaissonMPM
   }
 
   void
-  Mudline::find_tops_of_water(const BackgroundGrid &grid)
+  SoilColumns::find_tops_of_water(const BackgroundGrid &grid)
   {
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
       {
@@ -241,7 +241,8 @@ namespace CaissonMPM
   }
 
   std::vector<Beyond>
-  Mudline::find_beyond(const BackgroundGrid &grid, const OpenSides &open) const
+  SoilColumns::find_beyond(const BackgroundGrid &grid,
+                           const OpenSides      &open) const
   {
     std::vector<Beyond> result(grid.n_nodes(), Beyond::cell);
     const auto set = [&](const unsigned int node, const Beyond beyond) {
@@ -267,7 +268,7 @@ namespace CaissonMPM
   }
 
   double
-  Mudline::touched_share_of_lid(const BackgroundGrid &grid) const
+  SoilColumns::touched_share_of_lid(const BackgroundGrid &grid) const
   {
     std::vector<double> areas = {0., 0.}; // touched, all
     for (unsigned int cell = 0; cell < grid.n_cells(); ++cell)
@@ -287,7 +288,7 @@ namespace CaissonMPM
   }
 
   double
-  Mudline::mean_height(const Side side) const
+  SoilColumns::mean_height(const Side side) const
   {
     double sum = 0., area = 0.;
     for (unsigned int c = 0; c < sides.size(); ++c)
@@ -302,7 +303,7 @@ namespace CaissonMPM
   }
 
   double
-  Mudline::height_at_wall(const Side side) const
+  SoilColumns::height_at_wall(const Side side) const
   {
     return side == Side::plug ?
              heights[at_inner_wall] :
@@ -311,7 +312,7 @@ namespace CaissonMPM
   }
 
   double
-  Mudline::largest_change(const Mudline &other) const
+  SoilColumns::largest_change(const SoilColumns &other) const
   {
     double change = 0.;
     for (unsigned int c = 0; c < heights.size(); ++c)
