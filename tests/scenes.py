@@ -29,18 +29,10 @@ import reference
 
 sys.path.append(str(reference.HERE / "program"))
 from program import ALONE, BUILD, PROGRAM, judged  # noqa: E402
-from program import query_server, set_options  # noqa: E402
+from program import query_server, set_options, start_of  # noqa: E402
 
 Scenes = dict[str, dict[str, Any]]
 BEGIN, END = "output = '''\n", "'''\n"
-
-
-def start_of(scenes: Scenes, name: str) -> tuple[str, dict[str, Any]]:
-    """Return the .prm of a test, and the entries that are changed."""
-    base = scenes[name].get("scene", name)
-    is_other = base in scenes and base != name
-    file, entries = start_of(scenes, base) if is_other else (base, {})
-    return file, {**entries, **scenes[name].get("set", {})}
 
 
 def run(room: Path, scenes: Scenes, name: str) -> tuple[int, str]:
@@ -48,8 +40,7 @@ def run(room: Path, scenes: Scenes, name: str) -> tuple[int, str]:
     directory = BUILD / f"tests/{room.name}/{name}"
     shutil.rmtree(directory, ignore_errors=True)
     file, entries = start_of(scenes, name)
-    words = [str(PROGRAM.resolve()), f"{file}.prm"]
-    words += ["--output-directory", str(directory)]
+    words = [str(PROGRAM.resolve()), file, "--output-directory", str(directory)]
     words += set_options({"Output/Terminal": "plain", **entries})
     done = query_server(words) or subprocess.run(
         words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=ALONE

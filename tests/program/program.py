@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import tomllib
 import unittest
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,29 @@ def scene(name: str) -> str:
     verification, or one by its path from tests."""
     found = HERE.glob(f"{name}.prm" if "/" in name else f"*/{name}.prm")
     return str(next(found, HERE.parent / f"lab/verification/{name}.prm"))
+
+
+def start_of(scenes: dict[str, Any], name: str) -> tuple[str, Entries]:
+    """Return the .prm of a test of a scenes.toml (tests/scenes.py), from its room, and
+    the entries that are changed."""
+    base = scenes[name].get("scene", name)
+    is_other = base in scenes and base != name
+    file, entries = start_of(scenes, base) if is_other else (f"{base}.prm", {})
+    return file, {**entries, **scenes[name].get("set", {})}
+
+
+@functools.cache
+def scene_and_entries(name: str) -> tuple[str, Entries]:
+    """Return a scene of scene(), or one that scenes.toml of a room makes of another,
+    with the entries that are changed."""
+    if os.path.isfile(scene(name)):
+        return scene(name), {}
+    for file in HERE.glob("*/scenes.toml"):
+        scenes = tomllib.loads(file.read_text(encoding="utf-8"))
+        if name in scenes:
+            base, entries = start_of(scenes, name)
+            return str((file.parent / base).resolve()), entries
+    raise ValueError(f"there is no scene {name}")
 
 
 def user_scene(name: str) -> str:
@@ -256,13 +280,14 @@ class ProgramTest(unittest.TestCase):
         ranks: int = 1,
     ) -> str:
         """Run a scene of the tests with its results in path."""
+        file, changed = scene_and_entries(name)
         return self.run_program(
             status,
-            scene(name),
+            file,
             "--output-directory",
             path,
             *options,
-            entries=entries,
+            entries={**changed, **(entries or {})},
             ranks=ranks,
         )
 

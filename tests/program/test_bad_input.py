@@ -236,8 +236,8 @@ class Unused(ProgramTest):
 
     def warning(self, words: list[str], entries: dict[str, object]) -> None:
         """Ask for these words in the warning of a scene with these entries."""
-        text = self.run_program(
-            SUCCESS, scene("jack_cohesion"), "--validate", entries=entries
+        text = self.run_scene(
+            "jack_cohesion", self.directory(), SUCCESS, "--validate", entries=entries
         )
         self.assert_words(["warning", "not used", *words], text)
 

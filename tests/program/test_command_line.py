@@ -148,9 +148,7 @@ class Options(ProgramTest):
                 for words in ("2 warnings", "--strict", *mistakes):
                     self.assertIn(words, said)
         self.assertFalse(path.exists(), "nothing was written")
-        said = self.run_program(
-            SUCCESS, scene("jack_cohesion"), "--validate", "--strict"
-        )
+        said = self.run_scene("jack_cohesion", path, SUCCESS, "--validate", "--strict")
         self.assertIn("warning: Soil/Layer 1: Mohr-Coulomb sand with", said)
 
     def test_a_run_keeps_its_warnings(self) -> None:

@@ -5,7 +5,8 @@ import re
 import resource
 import unittest
 
-from program import BAD_INPUT, HERE, SUCCESS, Entries, ProgramTest, summary, user_scene
+from program import BAD_INPUT, SUCCESS, Entries, ProgramTest, scene_and_entries
+from program import summary, user_scene
 
 # words of the message, entries
 TOO_MANY_CELLS: tuple[tuple[list[str], Entries], ...] = (
@@ -76,19 +77,19 @@ class Limits(ProgramTest):
 class Steps(ProgramTest):
     """How many are expected, before a run and of one that is made."""
 
-    def expected(self, *words: object, entries: Entries = {}) -> float:
+    def expected(self, scene: object, entries: Entries) -> float:
         """Return the number that --validate says."""
-        said = self.run_program(SUCCESS, *words, "--validate", entries=entries)
+        said = self.run_program(SUCCESS, scene, "--validate", entries=entries)
         found = re.search(r"^ *steps +about (\d+)", said, re.M)
         assert found is not None, said
         return float(found[1])
 
     def test_sand_that_stiffens_under_a_tip(self) -> None:
         """Dense sand, whose first steps are 1.5 times as long as the others."""
-        path, scene = self.directory(), HERE / "materials/jack_density.prm"
-        self.run_program(SUCCESS, scene, "--output-directory", path)
-        made = summary(path)["steps"]
-        self.assertLess(abs(self.expected(scene) / made - 1), 0.25)
+        path = self.directory()
+        self.run_scene("jack_density", path)
+        expected = self.expected(*scene_and_entries("jack_density"))
+        self.assertLess(abs(expected / summary(path)["steps"] - 1), 0.25)
 
     def test_stiffer_layer(self) -> None:
         """Waves of twice the speed take half as long steps, over half of the way."""

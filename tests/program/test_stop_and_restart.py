@@ -21,6 +21,7 @@ from program import (
     flip_a_bit,
     history,
     scene,
+    scene_and_entries,
     summary,
 )
 
@@ -54,9 +55,9 @@ class Stop(ProgramTest):
         All records are far more than the pipe holds, so that the program cannot
         come to its end before it gets the signal, however slow this process is.
         """
-        command = self.command(
-            scene(name), "--output-directory", path, *options, entries=entries
-        )
+        file, changed = scene_and_entries(name)
+        words = (file, "--output-directory", path, *options)
+        command = self.command(*words, entries={**changed, **entries})
         with subprocess.Popen(
             command, bufsize=0, stdout=subprocess.PIPE, env=ALONE
         ) as process:

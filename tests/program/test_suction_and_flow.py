@@ -519,14 +519,7 @@ class Dropped(ProgramTest):
         self.run_scene("dropped", whole, entries=entries)
         self.run_scene("dropped", parts, entries={**entries, "Time/End time": 0.2})
         self.run_scene("dropped", parts, SUCCESS, "--restart", entries=entries)
-        self.run_program(
-            SUCCESS,
-            scene("dropped"),
-            "--output-directory",
-            ranks,
-            entries=entries,
-            ranks=3,
-        )
+        self.run_scene("dropped", ranks, entries=entries, ranks=3)
         for path in (parts, ranks):
             self.assertAlmostEqual(
                 history(path)[-1]["penetration_m"],
