@@ -216,7 +216,7 @@ class Governing(WithPage):
         self.assertGreater(stiff, 1.2 * plain)
         self.assertEqual(rings[3], (1, 1))
         for counted, words in zip(rings[2:], ("are not counted where", "divide")):
-            said = say(page.LIMITS, "factors", USUAL, [], counted, [])
+            said = say(page.SENTENCES, "factors", USUAL, [], counted, [])
             self.assertIn(f"Rings {words} the wall", said)
 
     def test_all_kinds_have_a_row(self) -> None:

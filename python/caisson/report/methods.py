@@ -3,7 +3,6 @@
 computed over method, and why the run is where it is."""
 import math
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,10 +19,10 @@ from caisson.table import by_rows, shown_text, text_of
 from caisson.template import say
 from caisson.shown import SMALLER, USUAL, Units
 from caisson.report import relief
+from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.installation import needs_suction, plug_area
 
-SENTENCES = Path(__file__).with_name("methods.jinja")
 OVER = "Computed / method"
 # the lower case of a method: the upper one
 LOWER = {"low": "high", "most probable": "highest"}

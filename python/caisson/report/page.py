@@ -24,7 +24,6 @@ from caisson.report.content import SENTENCES
 from caisson.verdict.installation import Installation, Rate
 
 HERE = Path(__file__).parent
-LIMITS = HERE / "limits.jinja"
 # of a page: a card is left out where nothing stands for what it shows
 MISSING = dict.fromkeys(
     "job verdict status incomplete progress refresh cards quarters uncertainty bar"
@@ -248,9 +247,9 @@ def of_installation(
     return {
         "has_suction": found.has_suction,
         "has_bar": found.has_bar,
-        "bar": "" if run.by_hand else say(LIMITS, "bar", run.shown, *reach, way),
+        "bar": "" if run.by_hand else say(SENTENCES, "bar", run.shown, *reach, way),
         "uncertainty": low_and_high.uncertainty_of(run),
-        "factors": say(LIMITS, "factors", run.shown, sources, rings, tops),
+        "factors": say(SENTENCES, "factors", run.shown, sources, rings, tops),
         "overview": methods.overview(run, found, planned),
         "quarters": low_and_high.quarters_of(run, found, end, planned),
         "remedies": remedies.table_of(run, found, end),

@@ -3,15 +3,14 @@
 from pathlib import Path
 from typing import NamedTuple
 
-
 from caisson import disk, phases
 from caisson.disk import InputError
 from caisson.phases import ENTRY, LIST, REST
 from caisson.report import verdict
+from caisson.report.content import SENTENCES
 from caisson.results import Results
 from caisson.template import say
 
-SENTENCES = Path(__file__).with_name("phases.jinja")
 PRESSURES = [f"pore_pressure_{end}_Pa" for end in ("smallest", "largest")]
 
 

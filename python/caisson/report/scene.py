@@ -11,6 +11,7 @@ from caisson.paths import without_user
 from caisson.results import Results
 from caisson.table import text_of
 from caisson.evaluation import is_sealed
+from caisson.report.content import SENTENCES
 from caisson.template import say_rows
 from caisson.verdict.installation import plug_area
 
@@ -104,8 +105,7 @@ def caisson_of(run: Results) -> list[Item]:
     tip = math.pi / 4 * float(scene["diameter_m"]) ** 2 - plug
     by_layer = any(WALLS & set(layer) for layer in scene.get("layers", []))
     how = run, plug, tip, by_layer, run.planned, is_sealed(run), in_units
-    path = Path(__file__).with_name("scene.jinja")
     return [
         Item(name, value, any(is_assumed(run, x) for x in entries.split(", ")))
-        for name, value, entries in say_rows(path, "caisson", *how, cells=3)
+        for name, value, entries in say_rows(SENTENCES, "caisson", *how, cells=3)
     ]

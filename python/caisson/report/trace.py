@@ -18,13 +18,13 @@ from caisson import disk
 from caisson.band import band_of
 from caisson.disk import InputError
 from caisson.evaluation import DEPTH
+from caisson.report.content import SENTENCES
 from caisson.results import Results
 from caisson.table import text_of
 from caisson.template import say
 from caisson.verdict import uncertainty
 
 NAME, HISTORY = "signed.json", "history.csv"
-SENTENCES = Path(__file__).with_name("page.jinja")
 SHORT = 12  # digits of a checksum at the foot of a page
 
 
