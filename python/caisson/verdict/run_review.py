@@ -16,7 +16,7 @@ from caisson import template
 from caisson.results import Results, Table
 from caisson.table import digits
 
-say = partial(template.say, Path(__file__).with_suffix(".jinja"))
+say = partial(template.say, Path(__file__).with_name("words.jinja"))
 # A fall counts if it takes less than this way, in widths of the tip. The stretches of
 # the way, over which forces are averaged, are an eighth of that: single rows scatter.
 SHORT_WAY, STRETCH = 0.5, 0.5 / 8

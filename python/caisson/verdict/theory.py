@@ -25,7 +25,7 @@ from caisson.design.method import Method
 
 Scene = Mapping[str, Any]
 Of = TypeVar("Of")
-SENTENCES = Path(__file__).with_name("theory.jinja")
+SENTENCES = Path(__file__).with_name("words.jinja")
 # The law whose strength is one friction angle; run.json names the law of a layer.
 MOHR_COULOMB = "Mohr-Coulomb"
 ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
