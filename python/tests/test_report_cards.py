@@ -1,23 +1,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cards, error bars and ends of runs in report.html of made-up runs."""
+"""Cards, error bars and ends of runs in report.html of made-up runs, runs that have not
+ended, where the numbers of a page come from, and who answers for them."""
+import argparse
+import contextlib
+import fcntl
+import hashlib
 import html
+import io
 import re
+import time
 import unittest
 import unittest.mock
 from typing import Any
+from unittest import mock
 
 import numpy as np
-from synthetic import write_columns, write_run
-from test_report import SCENE, SUMMARY, WithPage, leave_run
+from synthetic import DESIGN, write_columns, write_run
+from test_report import leave_run, SCENE, SUMMARY, WithPage
 
 import caisson.report as report
 from caisson import run_error_bar
-from caisson.verdict import limits, suction_methods, theory
-from caisson.results import Results
+from caisson.commands import run as launch
 from caisson.plot import charts
+from caisson.report import content, layers, methods, page, sketch, trace
+from caisson.results import Results
+from caisson.run_error_bar import NAME as ERROR
 from caisson.shown import USUAL
-from caisson.report import content, layers, methods, sketch
-from caisson.verdict import installation
+from caisson.verdict import installation, limits, suction_methods, theory
 
 
 class Cards(WithPage):
@@ -324,6 +333,115 @@ class Cards(WithPage):
             run.history = {"plug_balance_error": np.array([0.0, share])}
             found = " ".join(content.remarks_on_numbers(run))
             self.assertEqual("54 % of the volume that the plug" in found, is_said)
+
+
+class Live(WithPage):
+    """The page while the program computes."""
+
+    def test_run_that_goes_on(self) -> None:
+        """Its page reloads itself, also where an old run.json is left."""
+        self.assertIn('http-equiv="refresh"', self.page())
+        with (self.path / ".lock").open("w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn('http-equiv="refresh"', self.page(SUMMARY))
+        self.assertNotIn('http-equiv="refresh"', self.page(SUMMARY))
+
+    def test_report_of_a_run_in_progress_is_renewed(self) -> None:
+        """`caisson run` writes it while the program runs."""
+        leave_run(self.path, {**SUMMARY, "status": "running"})
+        page, end = self.path / report.NAME, time.monotonic() + 120
+        with mock.patch.object(launch, "RENEWAL", 0.1), launch.reporting(self.path):
+            while not page.is_file() and time.monotonic() < end:
+                time.sleep(0.1)
+        self.assertIn("sand &lt;b&gt;", page.read_text(encoding="utf-8"))
+
+    def test_renewed_whatever_it_costs(self) -> None:
+        """Each RENEWAL, also where a renewal takes nearly as long, while there are new
+        rows."""
+        leave_run(self.path, {**SUMMARY, "status": "running"})
+        begins = []
+
+        def write(*_: object, **__: object) -> None:
+            begins.append(time.monotonic())
+            time.sleep(0.15)
+            with (self.path / "history.csv").open("a", encoding="utf-8") as file:
+                file.write("\n" if len(begins) < 4 else "")
+
+        with mock.patch.object(launch.subprocess, "run", write):
+            with mock.patch.object(launch, "RENEWAL", 0.2), launch.reporting(self.path):
+                time.sleep(2.0)
+        self.assertEqual(len(begins), 4)
+        self.assertLess(max(np.diff(begins)), 0.5)
+
+
+class Trace(WithPage):
+    """Checksums, mesh error, and signatures at the foot of the page."""
+
+    def test_checksums(self) -> None:
+        """That of the results is what sha256sum says of history.csv; that of the scene
+        does not know where the results are."""
+        leave_run(self.path, SUMMARY)
+        found = trace.trace_of(Results(self.path))
+        assert found is not None
+        history = (self.path / "history.csv").read_bytes()
+        self.assertEqual(found.results, hashlib.sha256(history).hexdigest())
+        entries = DESIGN | {"Rigid body/Outer diameter": "10"}
+        lines = "".join(f"{k} = {entries[k]}\n" for k in sorted(entries))
+        self.assertEqual(found.scene, hashlib.sha256(lines.encode()).hexdigest())
+        self.assertEqual(found.mesh, "not known")
+        for name, changes in (("Output/Directory", False), ("Soil/Submerged", True)):
+            leave_run(self.path, {**SUMMARY, "defaults": {name: "x"}})
+            other = trace.sum_of_scene(Results(self.path))
+            self.assertEqual(other != found.scene, changes)
+
+    def test_mesh_error(self) -> None:
+        """20 % where the title asks for them, and the error bar where there is one."""
+        leave_run(self.path, {**SUMMARY, "title": "mine, for an error of about 20 %"})
+        found = trace.trace_of(Results(self.path))
+        assert found is not None
+        self.assertEqual(found.mesh, "-20 to +20 % (asked for, not computed)")
+        lines = ["# fingerprint: f00d", "penetration_m,total_below,total_above"]
+        lines += ["1,0.05,0.1", "5,0.05,0.1"]
+        (self.path / ERROR).write_text("\n".join(lines), encoding="utf-8")
+        report.write(self.path)
+        found = trace.trace_of(Results(self.path))
+        assert found is not None
+        self.assertEqual(found.mesh, "-5 to +10 % (error bar)")
+
+    def command(self, *words: str) -> str:
+        """Call `caisson report` for the run; return the page."""
+        parser = argparse.ArgumentParser()
+        report.add_arguments(parser)
+        with contextlib.redirect_stdout(io.StringIO()):
+            report.main(parser.parse_args([*words, str(self.path)]))
+        return (self.path / report.NAME).read_text(encoding="utf-8")
+
+    def test_signatures(self) -> None:
+        """They stand on the page and at its foot until the results change."""
+        leave_run(self.path, SUMMARY)
+        text = self.command("--author", "A. Ng")
+        self.assertTrue("Author: <i>A. Ng</i> Checked: <i></i>" in text)
+        foot = page.css_text("author A. Ng; not checked")
+        self.assertTrue(foot in text)
+        text = self.command("--checked", "B </style>")
+        self.assertTrue(page.css_text("author A. Ng; checked by B </style>") in text)
+        self.assertFalse("B </style>" in text)
+        history = self.path / "history.csv"
+        history.write_text(history.read_text(encoding="utf-8") + "\n")
+        self.assertTrue("Author: <i></i>" in self.command())
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.command("--author", "A. Ng", "--rate", "-1")
+        self.assertIn("--rate -1: give m/h above 0", said.getvalue())
+        self.assertEqual(trace.signed_of(self.path), trace.Signed())
+        (self.path / trace.NAME).write_text("{")
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.command()
+        self.assertIn("signed.json cannot be read", said.getvalue())
+
+    def test_run_that_goes_on(self) -> None:
+        """It has no checksum yet."""
+        leave_run(self.path, None)
+        self.assertIsNone(trace.trace_of(Results(self.path)))
 
 
 if __name__ == "__main__":
