@@ -18,7 +18,7 @@ from program import (
 
 from caisson import run_error_bar
 from caisson.results import Results
-from lab.paths import LAB
+from lab import LAB
 from lab.studies import scene_results
 
 
