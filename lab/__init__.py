@@ -14,3 +14,11 @@ evaluates all its cases. scripts/lab is the command line.
 
 The laboratory imports the user's package, caisson, which imports nothing of it.
 """
+from pathlib import Path
+
+LAB = Path(__file__).resolve().parent
+
+
+def scene_of(kind: str, name: str) -> Path:
+    """Return a scene, as in scene_of("verification", "piston")."""
+    return LAB / kind / f"{name}.prm"

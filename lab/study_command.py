@@ -15,7 +15,7 @@ from types import ModuleType
 from caisson import study_command
 from caisson.paths import SCENES, short
 from caisson.study import StudyError
-from lab.paths import LAB
+from lab import LAB
 from lab.study import LabReader, Options
 
 KINDS = study_command.KINDS | {

@@ -17,7 +17,7 @@ from collections.abc import Callable, Sequence
 
 from caisson.runner import read_parameters
 from lab.checks import value_of
-from lab.paths import scene_of
+from lab import scene_of
 
 Pair = tuple[float, float]
 Vector = list[float]

@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from caisson.study import Study
-from lab.paths import scene_of
+from lab import scene_of
 from lab.validation.cone_clay import cone_clay
 from lab.validation.cone_sand import cone_sand
 from lab.validation.verdict import Row
