@@ -11,7 +11,9 @@ is a quantity, what was computed, what is asked, and whether that is met. A shor
 that is known has its reason, and does not count as a failure.
 """
 import importlib
+import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -19,11 +21,12 @@ from matplotlib.figure import Figure
 
 from caisson.runner import Run
 from caisson.study import Options, Study, StudyError
+from caisson.table import number
 from lab import outcome
-from lab.validation.verdict import COLUMNS, Row
 
 NAME = "validation"
 STUDY_KEYS = {"compare", "measured"}
+COLUMNS = ["comparison", "quantity", "computed", "asked", "verdict"]
 # each is the module of this name in the folder of a case
 COMPARISONS = {
     "triaxial": "triaxial",
@@ -39,6 +42,46 @@ COMPARISONS = {
     "ring_over_cone": "ring_over_cone",
     "shaft_over_base": "shaft_over_base",
 }
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the table: a quantity, which should lie between two bounds."""
+
+    comparison: str
+    quantity: str
+    computed: float
+    least: float = -math.inf
+    largest: float = math.inf
+    known: str = ""  # why it falls short, if that is known
+
+    @property
+    def is_met(self) -> bool:
+        """Whether it lies within its bounds; false for nan."""
+        return self.least <= self.computed <= self.largest
+
+    @property
+    def fails(self) -> bool:
+        """Whether it falls short, and the reason is not known."""
+        return not self.is_met and not self.known
+
+    def asked(self) -> str:
+        """Return the bounds in words."""
+        if math.isinf(self.least) and math.isinf(self.largest):
+            return "shown"
+        if math.isinf(self.least):
+            return f"at most {number(self.largest)}"
+        if math.isinf(self.largest):
+            return f"at least {number(self.least)}"
+        return f"{number(self.least)} to {number(self.largest)}"
+
+    def texts(self) -> list[str]:
+        """Return the cells of the table."""
+        verdict = "met" if self.is_met else f"short: {self.known or 'NOT KNOWN WHY'}"
+        if self.asked() == "shown":
+            verdict = ""
+        computed = number(self.computed)
+        return [self.comparison, self.quantity, computed, self.asked(), verdict]
 
 
 class Comparison(Protocol):

@@ -23,7 +23,7 @@ from matplotlib.figure import Figure
 from caisson.runs import StudyRun
 from caisson.study import Study
 from lab.curves import final_mean
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 STRENGTH = 10e3  # Pa, of lab/verification/cone_tresca.prm
 RADIUS = 0.01785  # m

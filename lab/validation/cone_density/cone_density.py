@@ -23,7 +23,7 @@ from caisson.design.density import reference_modulus
 from caisson.study import Study
 from lab.validation.cone_density.cavity import DENSEST, LOOSEST, Sand, limit_pressure
 from lab.validation.cone_sand.cone_sand import fits, resistance
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 K0 = 0.46
 DENSITIES = (0.2, 0.4, 0.6, 0.8, 1.0)

@@ -24,7 +24,7 @@ from caisson.runs import StudyRun
 from caisson.study import Study
 from caisson.design import dnv
 from caisson.design.cone import Profile
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 CONE_AREA = pi * 0.1**2  # m2, of lab/validation/cone_in_sand/cone_in_sand.prm
 DIAMETER = 6.0  # m, of prm/jack.prm

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from caisson.results import read_table
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 DIAMETER = 0.036  # m
 HEIGHT = DIAMETER / 2 * 3**0.5  # m, of the cone

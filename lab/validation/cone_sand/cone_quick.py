@@ -10,7 +10,7 @@ from caisson.study import Study
 from lab import scene_of
 from lab.validation.cone_clay import cone_clay
 from lab.validation.cone_sand import cone_sand
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 CELLS = 2  # across the radius
 CLAY = cone_clay.Case()

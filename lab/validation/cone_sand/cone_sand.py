@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from caisson.runs import StudyRun
 from caisson.study import Study
 from lab.curves import final_mean
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 DIAMETER = 0.0357  # m
 DENSITIES = (0.5, 0.77, 0.9)

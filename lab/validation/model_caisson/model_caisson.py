@@ -15,7 +15,7 @@ from caisson.verdict import theory
 from caisson.results import read_table
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 ANGLES = (25, 40)  # of friction of the wall, degrees; 40: as rough as the sand
 SURFACES = ("outer wall", "inner wall", "tip")

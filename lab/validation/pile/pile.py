@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from caisson.results import Table, read_table
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 DIAMETER = 0.6  # m
 VOID_RATIOS = {"low": 0.669, "med": 0.587}

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from caisson.study import Study
 from lab.validation.pile import pile
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 THEIRS = 3.47  # MPa, at 1.1 m in sand of medium density, as in pile.csv
 # two cells find 0.86 of it, and finer ones 0.84 to 0.85

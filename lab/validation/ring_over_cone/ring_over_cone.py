@@ -16,7 +16,7 @@ import caisson
 from caisson.results import Table
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 TUBE, WALL, CONE = 0.2, 0.008, 0.0357  # m, diameters and thickness
 RING_AREA = pi * (TUBE - WALL) * WALL

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 DIAMETER = 0.102  # m
 AREA = pi * DIAMETER**2 / 4

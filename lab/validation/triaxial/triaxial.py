@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from caisson.results import Table, read_table
 from caisson.runs import StudyRun
 from caisson.study import Study
-from lab.validation.verdict import Row
+from lab.validation import Row
 
 HEIGHT = 0.01  # m, of the sample in lab/validation/triaxial/triaxial.prm
 WINDOW = 0.01  # of strain, for the dilatancy
