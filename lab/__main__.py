@@ -53,7 +53,7 @@ GROUPS: Groups = {
     "performance": {
         "speed": (STUDY, "measure the speed of kernels and program, as ratios"),
         "publish-speed": (
-            "lab.performance.publish",
+            "lab.performance.report",
             "copy the measured speed into lab/performance/speed.md",
         ),
     },

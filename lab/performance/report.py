@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a section of the report on speed says."""
+"""What a section of the report on speed says; and `scripts/lab publish-speed`, which
+copies the tables of results/speed into lab/performance/speed.md, and the picture of the
+manual into doc/pictures."""
+import argparse
+import re
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -7,10 +12,13 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from caisson import table
-from caisson import disk
+from caisson import disk, table
+from caisson.paths import PICTURES, RESULTS, ROOT
 from lab.machine import machine
 
+DOCUMENT = ROOT / "lab/performance/speed.md"
+PICTURE = "speed_step.png"  # of benchmarks.md
+BEGIN, END = "<!-- speed: begin -->", "<!-- speed: end -->"
 COLORS = {"SSE2": "#8c8c8c", "AVX2": "#3b7dd8", "AVX-512": "#d1495b"}
 
 
@@ -67,3 +75,18 @@ def bars(axes: Axes, names: Sequence[str], values: Sequence[float]) -> None:
         axes.text(value, i, f" {value:.2f}", va="center", fontsize=8)
     axes.margins(x=0.12)
     axes.invert_yaxis()
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `scripts/lab publish-speed`: none."""
+
+
+def main(_: argparse.Namespace) -> int:
+    """Replace what stands between the two marks."""
+    before, rest = DOCUMENT.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    table = (RESULTS / "speed/table.md").read_text(encoding="utf-8")
+    table = re.sub(r"!\[.*?\]\(pictures/.*?\)\n\n", "", table)
+    disk.write(DOCUMENT, f"{before}{BEGIN}\n{table}\n{END}{after}")
+    shutil.copy(RESULTS / "speed" / PICTURE, PICTURES)
+    return 0
