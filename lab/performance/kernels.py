@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from caisson.paths import BUILD, ROOT
 from caisson.study import Study
-from lab.machine import INSTRUCTION_SETS
+from lab.outcome import INSTRUCTION_SETS
 from lab.performance.report import COLORS, Report, panels
 
 KERNELS = BUILD / "kernel_benchmark"

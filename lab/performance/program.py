@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from caisson import curves
 from caisson.results import Table
 from caisson.study import Study
-from lab.machine import instruction_sets
+from lab.outcome import instruction_sets
 from lab.performance.report import Report, bars, panels
 from lab.performance.timed import Measured, Rounds, execute, interleave, median
 from lab.performance.timed import median_ratio

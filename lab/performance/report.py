@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from caisson import disk, table
 from caisson.paths import PICTURES, RESULTS, ROOT
-from lab.machine import machine
+from lab.outcome import machine
 
 DOCUMENT = ROOT / "lab/performance/speed.md"
 PICTURE = "speed_step.png"  # of benchmarks.md

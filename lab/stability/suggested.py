@@ -29,7 +29,7 @@ from caisson.paths import RESULTS
 from caisson.results import Results, ResultsError
 from caisson.runner import Run, RunError, Status, query, read_parameters
 from caisson.verdict import run_review
-from lab import machine, outcome
+from lab import outcome
 
 NUMBER, QUICK, SEED = 80, 6, 63
 SHARE = 0.1  # of the skirt, to which a run goes
@@ -304,7 +304,7 @@ def main(options: argparse.Namespace) -> int:
         for case in pool.map(lambda c: try_case(c, options), written):
             verdict = "; ".join(case.faults) or "passes"
             print(f"scene {case.number:02d}, {case.soil}: {verdict}", flush=True)
-    heading = f"{machine.machine()}\n\n"
+    heading = f"{outcome.machine()}\n\n"
     outcome.write_table(options.results, COLUMNS, [c.line() for c in cases], heading)
     failed = sum(bool(case.faults) for case in cases)
     print(f"suggested: {len(cases) - failed} of {len(cases)} pass")

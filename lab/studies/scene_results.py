@@ -19,7 +19,7 @@ from caisson import curves, evaluation, table
 from caisson.paths import PROGRAM, RESULTS, ROOT, SCENES
 from caisson.results import Results, Table
 from caisson.runner import Entries, Run, RunError, Status
-from lab import machine
+from lab import outcome
 from lab.checks import checks_of
 from lab.curves import final_mean
 
@@ -227,7 +227,7 @@ def numbers_of(
             depth,
             value,
             commit,
-            machine.processor(),
+            outcome.processor(),
             record["cpu_s"],
         )
         for (quantity, depth), value in found.items()
@@ -357,7 +357,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(options: argparse.Namespace) -> int:
     """Run the scenes; return 1 where a number differs or a scene fails."""
     way = SHORT if options.short else WHOLE
-    complaints, commit = [], machine.commit()
+    complaints, commit = [], outcome.commit()
     for scene in listed_scenes():
         if not re.search(options.only, scene):
             continue

@@ -35,7 +35,6 @@ from caisson.table import number
 from caisson.error_bars import bar_study
 from lab import outcome
 from lab.checks import checks_of
-from lab.machine import machine
 from lab.verification import damped_wave
 
 NAME = "verification"
@@ -172,7 +171,7 @@ def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:
     passes or falls short no more than the file says, otherwise 1."""
     found = [table_row(study, row) for study in studies for row in study.keys["checks"]]
     rows = [[row[column] for column in COLUMNS] for row in found]
-    heading = f"`scripts/lab verify`, {machine()}, {minutes:.0f} minutes."
+    heading = f"`scripts/lab verify`, {outcome.machine()}, {minutes:.0f} minutes."
     heading = f"# Verification\n\n{heading}\n\n"
     outcome.write_table(options.results, COLUMNS, rows, heading)
     n_failed = sum(row["verdict"].startswith(FAIL) for row in found)
