@@ -40,6 +40,7 @@ class Uncertainties(WithPage):
             depth = history["penetration_m"]
             history["total_force_N"] = 1e6 * factor * depth
             history["required_suction_Pa"] = 1e4 * (factor * depth - 1.5)
+            history["suction_Pa"] = np.maximum(history["required_suction_Pa"], 0)
             write_columns(directory / "history.csv", history)
         return Results(best)
 

@@ -60,7 +60,7 @@ class Verdicts(WithPage):
         self.assertTrue(found.text.startswith("Feasible to 3.5 m: "))
         self.assertIn("reaches the allowable one (pump).", found.text)
         words = (
-            "By arithmetic and without margin, about 1.8 MN of weight in all, or a pump"
+            "By arithmetic and without margin, about 2.6 MN of weight in all, or a pump"
             " for 30 kPa, would be needed at 4.5 m."
         )
         self.assertIn(words, found.text)

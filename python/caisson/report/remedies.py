@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What would help where suction does not install a caisson: amounts, by arithmetic.
 
-The required suction and the limits of the run go on by straight lines, as over the last
-meter or quarter of what is feasible; piping and the plug of clay have the numbers of
-their methods at the planned depth. Tip and walls keep their shares of the resistance.
-With another wall or diameter the stress on them stays, on their new areas, the methods
-and the check of the wall have the new sizes, and the weight changes by the steel of the
-skirt. Where no size suffices, the depth stands there that one of TRIED would reach.
+A remedy has to do at all depths down to the planned one. The required suction and the
+limits of the run go on by straight lines, as over the last meter or quarter of what is
+feasible; piping and the plug of clay have the numbers of their methods. Tip and walls
+keep their shares of the resistance, of which less suction takes less. With another wall
+or diameter the stress on them stays, on their new areas, the methods and the check of
+the wall have the new sizes, and the weight changes by the steel of the skirt. Where no
+size suffices, the depth stands there that one of TRIED would reach.
 """
 import functools
 from collections.abc import Callable
@@ -19,7 +20,8 @@ import numpy as np
 from caisson.design import shell
 from caisson.design.suction_installation import bisect
 from caisson.units import GRAVITY
-from caisson.verdict import limits, suction_methods, theory
+from caisson.verdict import limits, outcome, suction_methods, theory
+from caisson.verdict.by_hand import suction_of
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.installation import installation_of
 from caisson.results import Results
@@ -31,6 +33,7 @@ STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
+LEAST_LEFT = 0.2  # of tip and inner friction, under the suction of a run
 ROOM = 0.01  # of the diameter, that a shorter skirt leaves above the plug
 SENTENCES = Path(__file__).with_name("remedies.jinja")
 NOT_KNOWN = "not known: another layer begins above the planned depth"
@@ -60,25 +63,22 @@ class Sizes(NamedTuple):
 
 
 class Planned:
-    """The caisson at a depth (m) that it does not reach; forces in kN, suctions in
-    kPa."""
+    """The caisson at depths [n] (m), down to one that it does not reach; forces in kN,
+    suctions in kPa, [n] each."""
 
-    def __init__(self, run: Results, found: Installation, depth: float) -> None:
-        """found: what is feasible, whose trend goes on to the depth."""
-        self.run, self.found, self.depth = run, found, depth
+    def __init__(self, run: Results, found: Installation, at: np.ndarray) -> None:
+        """found: what is feasible, whose trend goes on below it."""
+        self.run, self.found, self.at, self.depth = run, found, at, float(at[-1])
         scene = run.scene
         size, weight = float(scene["diameter_m"]), run.weight / 1e3
         self.sizes = Sizes(size, float(scene["wall_thickness_m"]), weight)
-        # hand methods know the depth itself
-        at = np.array([depth])
+        # hand methods know the depths themselves
         self.there = installation_of(run, Rate(), at) if run.by_hand else None
         self.required = self.value(lambda x: x.required)
-        last = self.there or found
-        parts = [float(values[-1]) for values in list(last.forces.values())[:3]]
-        total = self.required * self.sizes.area + weight
-        self.forces = [total * part / sum(parts) for part in parts]
+        self.expected = self.value(lambda x: x.expected)
         self.by_methods = functools.cache(self._by_methods)
-        self.piping = self.by_methods(*self.sizes[:2])[0]
+        critical, self.piping, _ = self.by_methods(*self.sizes[:2])
+        self.forces = self._jacking(critical)
         wall = limits.wall_of(run)
         self.pressures = shell.pressures_of(run, wall) if wall else {}
 
@@ -91,60 +91,101 @@ class Planned:
         rows |= np.arange(len(depth)) >= len(depth) - LEAST_ROWS
         return np.asarray(rows & (self.found.required > NOTHING))
 
-    def value(self, of: Callable[[Installation], np.ndarray]) -> float:
-        """Return a column of the installation at the depth; nan without a trend."""
+    def value(self, of: Callable[[Installation], np.ndarray]) -> np.ndarray:
+        """Return a column of the installation at the depths; nan without a trend."""
         if self.there is not None:
-            return float(of(self.there)[0])
-        values = of(self.found)
+            return of(self.there)
+        values, depth = of(self.found), self.found.depth
+        below = np.full(len(self.at), np.nan)
         rows = self.rows & np.isfinite(values)
-        if rows.sum() < 2:
-            return float("nan")
-        line = np.polyfit(self.found.depth[rows], values[rows], 1)
-        return float(np.polyval(line, self.depth))
+        if rows.sum() > 1:
+            line = np.polyfit(depth[rows], values[rows], 1)
+            below = np.polyval(line, self.at)
+        within = self.at <= depth[-1]
+        return np.where(within, np.interp(self.at, depth, values), below)
+
+    def _jacking(self, critical: np.ndarray) -> list[np.ndarray]:
+        """Return the forces on tip, inner and outer wall without suction. Below a run,
+        they keep their shares; suction has taken from tip and inner wall as much as
+        suction_of() says. critical: the suction that takes all of it."""
+        names = list(self.found.forces)[:3]
+        if self.there is not None:
+            return [self.there.forces[name] for name in names]
+        depth = self.found.depth
+        parts = [np.interp(self.at, depth, self.found.forces[x]) for x in names]
+        total = self.required * self.sizes.area + self.sizes.weight
+        scale = np.where(self.required > NOTHING, total / sum(parts), 1.0)
+        left = np.ones(len(self.at))
+        flows = np.isfinite(critical) & (critical > 0)
+        left[flows] -= self.required[flows] / critical[flows]
+        shares = scale / np.clip(left, LEAST_LEFT, 1.0)
+        return [parts[0] * shares, parts[1] * shares, parts[2] * scale]
 
     def _by_methods(
         self, diameter: float, wall: float
-    ) -> tuple[float, dict[str, float]]:
-        """Return the suction of piping, nan without one, and those of the plug, which
-        do not depend on the weight."""
+    ) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+        """Return the suction that leaves nothing of tip and inner friction, infinite
+        without flow, that of piping, nan without, and those of the plug: what does not
+        depend on the weight."""
         site = theory.site_of(self.run)
         new = {"diameter_m": diameter, "wall_thickness_m": wall}
         site = site._replace(scene={**site.scene, **new})
-        piping, every = suction_methods.limits_at(site, np.array([self.depth]))
-        plug = {name: float(values[0]) / 1e3 for name, values in every.items()}
-        return np.nan if piping is None else float(piping[0]) / 1e3, plug
+        critical, piping = suction_methods.flow_above_clay(site, self.at)
+        _, every = suction_methods.limits_at(site, self.at)
+        plug = {name: values / 1e3 for name, values in every.items()}
+        return critical / 1e3, piping / 1e3, plug
 
-    def needs(self, sizes: Sizes) -> float:
-        """Return the required suction, at least 0."""
+    def needs(self, sizes: Sizes) -> np.ndarray:
+        """Return the required suction, at least 0: less of it takes less from tip and
+        inner friction."""
         old, (tip, inner, outer) = self.sizes, self.forces
-        more = tip * (sizes.tip / old.tip - 1)
-        more += inner * (sizes.inner / old.inner - 1)
-        more += outer * (sizes.diameter / old.diameter - 1)
-        force = self.required * old.area + old.weight + more
-        return max((force - sizes.weight) / sizes.area, 0.0)
+        forces = {
+            "tip": tip * (sizes.tip / old.tip),
+            "inner friction": inner * (sizes.inner / old.inner),
+            "outer friction": outer * (sizes.diameter / old.diameter),
+        }
+        forces["total"] = np.sum(list(forces.values()), axis=0)
+        critical, *_ = self.by_methods(*sizes[:2])
+        found = suction_of(forces, sizes.weight, sizes.area, critical)
+        return np.maximum(found, 0.0)
 
-    def allows(self, sizes: Sizes) -> dict[str, float]:
+    def allows(self, sizes: Sizes) -> dict[str, np.ndarray]:
         """Return the limits of the suction, by their factors."""
-        piping, plug = self.by_methods(*sizes[:2])
+        _, piping, plug = self.by_methods(*sizes[:2])
         factors, same = self.found.factors, (self.there or self.found).limits
         known = {limits.PIPING: piping, **plug}
         found = {name: value / factors[name] for name, value in known.items()}
         for name in (limits.COMPUTED, limits.BOILING, limits.PUMP):
             if name in same:
                 found[name] = self.value(lambda x: x.limits[name])
-        if limits.COMPUTED in found and np.isfinite(self.piping):
-            found[limits.COMPUTED] *= piping / self.piping
+        if limits.COMPUTED in found:
+            ratio = np.where(np.isfinite(self.piping), piping / self.piping, 1.0)
+            found[limits.COMPUTED] = found[limits.COMPUTED] * ratio
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
             thickness = wall.thickness * sizes.wall / self.sizes.wall
             wall = wall._replace(diameter=sizes.diameter, thickness=thickness)
-            more = shell.beyond_suction(self.pressures, wall, [self.depth])[0]
-            loads = 1e3 * sizes.weight, float(more), factors[limits.SHELL]
-            found[limits.SHELL] = shell.limit_suction(wall, self.depth, *loads) / 1e3
-        return {name: value for name, value in found.items() if np.isfinite(value)}
+            more = shell.beyond_suction(self.pressures, wall, list(self.at))
+            weight, factor = 1e3 * sizes.weight, factors[limits.SHELL]
+            buckles = [
+                shell.limit_suction(wall, float(h), weight, float(x), factor) / 1e3
+                for h, x in zip(self.at, more)
+            ]
+            found[limits.SHELL] = np.array(buckles)
+        return {k: np.where(np.isnan(x), inf, x) for k, x in found.items()}
+
+    def has_room(self, sizes: Sizes) -> bool:
+        """Return whether the plug, which the wall lifts, stays below the lid."""
+        if not len(self.found.room):
+            return True
+        share = sizes.tip / sizes.area / (self.sizes.tip / self.sizes.area)
+        rise = self.found.factors.get(limits.LID, 1.0) * share * self.expected
+        return not (self.at + rise > self.run.scene["skirt_length_m"]).any()
 
     def suffices(self, sizes: Sizes) -> bool:
-        """Return whether the required suction is below all limits."""
-        return self.needs(sizes) < min(self.allows(sizes).values(), default=inf)
+        """Return whether the required suction is below all limits, and the plug below
+        the lid."""
+        least = np.min([np.full(len(self.at), inf), *self.allows(sizes).values()], 0)
+        return self.has_room(sizes) and bool((self.needs(sizes) < least).all())
 
     def steel(self, sizes: Sizes) -> float:
         """Return the weight (kN) with another skirt of steel."""
@@ -173,24 +214,24 @@ def nearest(planned: Planned, name: str) -> float | None:
 def reach(planned: Planned, name: str, size: float) -> float:
     """Return the depth (m) to which the caisson goes in with another diameter or
     wall (m)."""
-    run, found = planned.run, planned.found
+    run, found, every = planned.run, planned.found, planned.at
 
     def is_beyond(depth: float) -> bool:
-        return not is_enough(Planned(run, found, depth), name, size)
+        down = Planned(run, found, np.append(every[every < depth], depth))
+        return not is_enough(down, name, size)
 
     return bisect(is_beyond, float(found.depth[-1]), planned.depth, 12)[0]
 
 
 def weight_of(planned: Planned) -> float | None:
     """Return the weight (kN) that suffices; None where none does, as the wall buckles
-    under it."""
-    sizes = planned.sizes
-    low, high = sizes.weight, sizes.weight + planned.required * sizes.area
-    if not planned.suffices(sizes._replace(weight=high)):
-        return None
-    return bisect(lambda x: planned.suffices(sizes._replace(weight=x)), low, high, 30)[
-        1
-    ]
+    under it, or the plug meets the lid."""
+    sizes, whole = planned.sizes, float(np.max(sum(planned.forces)))
+
+    def suffices(weight: float) -> bool:
+        return planned.suffices(sizes._replace(weight=weight))
+
+    return bisect(suffices, sizes.weight, whole, 30)[1] if suffices(whole) else None
 
 
 class Size(NamedTuple):
@@ -230,11 +271,16 @@ class Pump(NamedTuple):
 def pump_of(planned: Planned) -> Pump | None:
     """Return what another pump does; None where there is nothing to say of it."""
     others = planned.allows(planned.sizes)
-    pump = others.pop(limits.PUMP, inf)
-    name = min(others, key=lambda x: others[x], default="")
-    if planned.required < others.get(name, inf):
-        return Pump(planned.required, pump) if pump < inf else None
-    return Pump(planned.required, others[name], planned.found.named(name))
+    pump = others.pop(limits.PUMP, np.array([inf]))[-1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = {k: np.nan_to_num(planned.required / x) for k, x in others.items()}
+    name = max(shares, key=lambda x: float(shares[x].max()), default="")
+    if not name or shares[name].max() < 1:
+        most = float(planned.required.max())
+        return Pump(most, float(pump)) if pump < inf else None
+    i = int(shares[name].argmax())
+    needed, least = float(planned.required[i]), float(others[name][i])
+    return Pump(needed, least, planned.found.named(name))
 
 
 def skirt_of(planned: Planned) -> tuple[float, float] | None:
@@ -243,7 +289,7 @@ def skirt_of(planned: Planned) -> tuple[float, float] | None:
     found, length = planned.found, planned.run.scene.get("skirt_length_m")
     if not length or not len(found.room):
         return None
-    rise = found.factors.get(limits.LID, 1.0) * planned.value(lambda x: x.expected)
+    rise = found.factors.get(limits.LID, 1.0) * float(planned.expected[-1])
     needed = planned.depth + max(rise, 0.0)
     return (needed, float(length)) if needed > float(length) else None
 
@@ -254,14 +300,16 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
     sizes = scene.get("diameter_m"), scene.get("wall_thickness_m")
     if None in sizes or not run.weight:
         return "sizes and weight are not known"
-    planned = Planned(run, found, target)
-    if not np.isfinite(planned.required):
+    every = (run.by_hand and outcome.whole_way(run)) or found
+    way = every.depth[(every.depth > 0) & (every.depth < target)]
+    planned = Planned(run, found, np.append(way, target))
+    if not np.isfinite(planned.required[-1]):
         return "too few numbers above"
+    if run.by_hand:
+        return planned
     above = found.depth[planned.rows][0]
     tops = [layer.get("top_depth_m", 0) for layer in scene.get("layers", [])]
-    if not run.by_hand and any(above < top < target for top in tops):
-        return NOT_KNOWN
-    return planned
+    return NOT_KNOWN if any(above < top < target for top in tops) else planned
 
 
 def sentence_of(run: Results, found: Installation, target: float) -> str:

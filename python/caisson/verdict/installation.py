@@ -25,6 +25,10 @@ from caisson.table import NOTHING, in_units, text_of
 from caisson.shown import USUAL, Units
 
 HOUR = 3600.0
+PIECES = 100  # of a way, between which a peak of the suction is looked for
+JUST_BELOW = 1e-3  # of the way: there the tip stands on the next layer
+LITTLE = 0.1  # of the largest suction
+PEAK = 1.02  # times the largest value of the rows, that a peak exceeds
 HELD = 0.7  # m, below the error bar, over which its last width still stands
 
 
@@ -129,6 +133,14 @@ class Installation:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(self.required / self.allowable)
 
+    @property
+    def share(self) -> np.ndarray:
+        """The same [n], 0 where nothing bounds it, and where suction begins: there the
+        limits that follow from it are ratios of small numbers."""
+        known = np.nan_to_num(self.utilization, posinf=1e9)
+        least = max(NOTHING, LITTLE * float(self.required.max()))
+        return np.where(self.required > least, known, 0.0)
+
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""
         return limits.governing(self.limits, i)
@@ -185,8 +197,38 @@ def bounds_of(numbers: Table, quantity: str, unit: str) -> Bounds | None:
 def installation_of(
     run: Results, rate: Rate, at: np.ndarray | None = None
 ) -> Installation | None:
-    """Return the installation at depths [n] (m), or those of the tables; None for a run
-    that does not go down."""
+    """Return the installation at depths [n] (m), or those of the tables with the peaks
+    between them; None for a run that does not go down."""
+    found = installation_at(run, rate, at)
+    if at is not None or found is None or not len(found.required):
+        return found
+    return installation_at(run, rate, np.union1d(found.depth, peaks_of(run, found)))
+
+
+def peaks_of(run: Results, found: Installation) -> np.ndarray:
+    """Return the depths [n] (m) between rows where the required suction, or its share
+    of the allowable one, is larger than in all rows, as in a thin layer, and where it
+    first reaches the allowable one."""
+    first, end = found.depth[0], found.depth[-1]
+    tops = np.array([x.get("top_depth_m", 0) for x in run.scene.get("layers", [])])
+    around = np.append(tops, tops + JUST_BELOW * (end - first))
+    around = around[(around > first) & (around < end)]
+    at = np.union1d(np.linspace(first, end, PIECES + 1), around)
+    if (fine := installation_at(run, Rate(), at)) is None:
+        return np.empty(0)
+    pairs = (fine.required, found.required), (fine.share, found.share)
+    peaks = [int(x.argmax()) for x, rows in pairs if x.max() > PEAK * rows.max()]
+    beyond, row = np.flatnonzero(fine.share >= 1), np.flatnonzero(found.share >= 1)
+    if len(beyond):
+        before = found.depth[max(row[0] - 1, 0)] if len(row) else end
+        peaks += [int(beyond[0])] if fine.depth[beyond[0]] <= before else []
+    return fine.depth[peaks]
+
+
+def installation_at(
+    run: Results, rate: Rate, at: np.ndarray | None
+) -> Installation | None:
+    """Return the installation at these rows alone."""
     history = run.history
     if curves.penetration(history) is None or not design.goes_down(history):
         return None

@@ -20,8 +20,8 @@ from caisson import evaluation
 from caisson.band import BEST
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
-from caisson.verdict.installation import NOTHING, Rate, bounds_of, error_asked_of
-from caisson.verdict.installation import installation_of, plug_area
+from caisson.verdict.installation import LITTLE, NOTHING, Rate, bounds_of
+from caisson.verdict.installation import error_asked_of, installation_of, plug_area
 from caisson.verdict.limits import rounded_down
 from caisson.verdict.outcome import feasible_to, reached
 
@@ -32,7 +32,6 @@ OF_STEEL = 0.10  # of the friction of a wall: 29.6 +- 2.5 degrees in 44 tests
 NAMES = {TOTAL: ("total force", "N"), SUCTION: ("required suction", "Pa")}
 PARTS = MESH, GROUND, PROGRAM = "mesh", "ground", "model"
 POINTS = 60  # of a curve
-LITTLE = 0.1  # of the largest suction
 Members = Mapping[str, Results]  # by estimate, the best one among them
 
 
@@ -206,7 +205,7 @@ def end_of_upper(run: Results, members: Members) -> float | None:
     known = found and installation_of(run, Rate(), found.depth)
     if not found or not known or not known.limits:
         return None
-    # not where suction begins: limits follow from it, by a ratio of small numbers
+    # not where suction begins, as in the share of the allowable one
     least = max(NOTHING, LITTLE * known.required.max())
     needed = np.where(known.required > least, found.high / 1e3, 0.0)
     end = reached(replace(known, required=needed), known.allowable)
