@@ -158,6 +158,12 @@ class Governing(WithPage):
         words = "plug meets the lid, factor 3"
         self.check(run, limits.LID, 4 / 1.15, words)
 
+    def test_around_tops(self) -> None:
+        """A row at each top of a layer on the way, and one just below; none beyond."""
+        tops = [{**SAND, "top_depth_m": top} for top in (0, 2.2, 5)]
+        found = installation.around_tops(self.run_of({"layers": tops}), 0.5, 4.5)
+        np.testing.assert_allclose(found, [2.2, 2.204])
+
     def test_lid_by_the_wall(self) -> None:
         """Where less heave is computed, 0.5 % of the way, than the wall of 0.2 m takes
         up, (10 / 9.6)^2 - 1 = 8.507 % of the way, half of it down to 1.5 m, room is

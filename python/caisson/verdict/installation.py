@@ -205,15 +205,21 @@ def installation_of(
     return installation_at(run, rate, np.union1d(found.depth, peaks_of(run, found)))
 
 
+def around_tops(run: Results, first: float, end: float) -> np.ndarray:
+    """Return the depths (m) of the tops of layers between two depths, and just below
+    them, [n]: what a tip meets changes there."""
+    tops = np.array([x.get("top_depth_m", 0) for x in run.scene.get("layers", [])])
+    found = np.append(tops, tops + JUST_BELOW * (end - first))
+    return found[(found > first) & (found < end)]
+
+
 def peaks_of(run: Results, found: Installation) -> np.ndarray:
     """Return the depths [n] (m) between rows where the required suction, or its share
     of the allowable one, is larger than in all rows, as in a thin layer, and where it
     first reaches the allowable one."""
     first, end = found.depth[0], found.depth[-1]
-    tops = np.array([x.get("top_depth_m", 0) for x in run.scene.get("layers", [])])
-    around = np.append(tops, tops + JUST_BELOW * (end - first))
-    around = around[(around > first) & (around < end)]
-    at = np.union1d(np.linspace(first, end, PIECES + 1), around)
+    even = np.linspace(first, end, PIECES + 1)
+    at = np.union1d(even, around_tops(run, first, end))
     if (fine := installation_at(run, Rate(), at)) is None:
         return np.empty(0)
     pairs = (fine.required, found.required), (fine.share, found.share)

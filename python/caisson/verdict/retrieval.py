@@ -12,7 +12,7 @@ from caisson.design import retrieval
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.results import Results
 from caisson.verdict import limits, theory
-from caisson.verdict.installation import plug_area
+from caisson.verdict.installation import around_tops, plug_area
 
 SUCTION_COLUMN = "suction_Pa"
 SET_UP = "Factor on set-up"
@@ -97,12 +97,14 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
 
 def retrieval_of(run: Results) -> Retrieval | None:
     """Return the retrieval of a run, at multiples of half a meter or of less on a short
-    way; None where nothing is retrieved."""
+    way and around the tops of layers; None where nothing is retrieved."""
     if not is_retrieval(run):
         return None
     way = evaluation.way_of(run, way_up(run.history[DEPTH])[1:])
     at_most = way.largest(-way.columns[SUCTION])[1]
-    at = np.union1d(-evaluation.depths_of(-way.depth), at_most)
+    rows = -evaluation.depths_of(-way.depth)
+    tops = around_tops(run, float(way.depth.min()), float(way.depth.max()))
+    at = np.union1d(rows, np.append(tops, at_most))
     factor = limits.number_of(run, SET_UP)
     friction = -sum(way.mean(f"{side}_friction_N", at) for side in ("inner", "outer"))
     area = plug_area(run.scene)
