@@ -130,8 +130,7 @@ class Planned:
         site = theory.site_of(self.run)
         new = {"diameter_m": diameter, "wall_thickness_m": wall}
         site = site._replace(scene={**site.scene, **new})
-        critical, piping = suction_methods.flow_above_clay(site, self.at)
-        _, every = suction_methods.limits_at(site, self.at)
+        critical, piping, every = suction_methods.limits_at(site, self.at)
         plug = {name: values / 1e3 for name, values in every.items()}
         return critical / 1e3, piping / 1e3, plug
 

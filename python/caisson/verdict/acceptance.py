@@ -70,9 +70,9 @@ def seal_of(run: Results, found: Installation) -> Seal | None:
         return None
     end = min(FURTHER * found.rest, float(found.depth[-1]))
     depth = np.union1d(np.linspace(end / ROWS, end, ROWS), found.rest)
-    piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
+    _, piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
     at_rest = depth == found.rest
-    if piping is None or not np.isfinite(piping[at_rest]).all():
+    if not np.isfinite(piping[at_rest]).all():
         return None
     allowed, applied = piping / found.factors[limits.PIPING], given(run, START)
     suction = applied or float(allowed[at_rest][0])

@@ -91,7 +91,7 @@ def columns_of(run: Results) -> Table:
             head = "clay_assumed_cone" if found.assumed else "clay"
             cases = found.in_clay.cases.items()
             columns |= {f"{head}_{case}_Pa": values for case, values in cases}
-        _, plug = suction_methods.limits_at(site, depth)
+        *_, plug = suction_methods.limits_at(site, depth)
         columns |= {PLUG[name]: values for name, values in plug.items()}
     return columns
 

@@ -239,9 +239,8 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     found: dict[str, np.ndarray] = {}
     if "critical_gradient" in run.history:
         found[COMPUTED] = critical_by_gradient(run, at)
-    piping, plug = suction_methods.limits_at(theory.site_of(run), at)
-    if piping is not None:
-        found[PIPING] = piping / 1e3
+    _, piping, plug = suction_methods.limits_at(theory.site_of(run), at)
+    found[PIPING] = piping / 1e3
     found |= {name: values / 1e3 for name, values in plug.items()}
     if evaluation.BOILING in numbers:
         found[BOILING] = numbers[evaluation.BOILING] / 1e3

@@ -203,14 +203,13 @@ def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
 
 def limits_at(
     site: theory.Site, depth: np.ndarray
-) -> tuple[np.ndarray | None, dict[str, np.ndarray]]:
-    """Return the suction of piping by Houlsby and Byrne, nan below the first clay, None
-    where they have none, and those at which a plug of clay gives way, [n] (Pa) at
-    embedments [n] (m): what answers_of() has of them, in less time."""
-    _, piping = flow_above_clay(site, depth)
-    known = np.isfinite(piping)
-    plug = {} if known.all() else theory.plug_limits(site, depth)
-    return (piping if known.any() else None), plug
+) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Return what flow does, as flow_above_clay() has it, and the suctions at which a
+    plug of clay gives way, [n] (Pa) at embedments [n] (m): what answers_of() has of
+    them, in less time."""
+    critical, piping = flow_above_clay(site, depth)
+    is_all = np.isfinite(piping).all()
+    return critical, piping, {} if is_all else theory.plug_limits(site, depth)
 
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
