@@ -22,7 +22,7 @@ from caisson.design.suction_installation import bisect
 from caisson.units import GRAVITY
 from caisson.verdict import limits, outcome, suction_methods, theory
 from caisson.verdict.by_hand import suction_of
-from caisson.verdict.installation import NOTHING, Installation, Rate
+from caisson.verdict.installation import LITTLE, NOTHING, Installation, Rate
 from caisson.verdict.installation import installation_of
 from caisson.results import Results
 from caisson.template import say, say_rows
@@ -181,10 +181,12 @@ class Planned:
         return not (self.at + rise > self.run.scene["skirt_length_m"]).any()
 
     def suffices(self, sizes: Sizes) -> bool:
-        """Return whether the required suction is below all limits, and the plug below
-        the lid."""
+        """Return whether the required suction is below all limits, but for where it
+        begins, as in Installation.share, and the plug below the lid."""
         least = np.min([np.full(len(self.at), inf), *self.allows(sizes).values()], 0)
-        return self.has_room(sizes) and bool((self.needs(sizes) < least).all())
+        needed = self.needs(sizes)
+        counts = needed > LITTLE * needed.max()
+        return self.has_room(sizes) and bool((needed < least)[counts].all())
 
     def steel(self, sizes: Sizes) -> float:
         """Return the weight (kN) with another skirt of steel."""
