@@ -178,6 +178,7 @@ class Governing(WithPage):
         self.assertAlmostEqual(found.room[-1], 4 - at - found.expected[-1])
         page = report.write(self.path).read_text(encoding="utf-8")
         self.assertRegex(page, r"all of it under suction; computed\s+0\.02 m")
+        self.assertRegex(page, r"plug heave computed \(m\).*plug heave expected \(m\)")
 
     def test_shell(self) -> None:
         """10 mm for 10 m of diameter buckle; a lower factor and rings help."""

@@ -333,7 +333,9 @@ def tables_of(found: Installation) -> list[dict[str, Any]]:
     }
     room = {"plug heave (m)": found.heave, "room below the lid (m)": found.room}
     if found.expects_more:
-        room = {"plug heave (m)": found.heave, "expected (m)": found.expected, **room}
+        heave = "plug heave computed (m)", "plug heave expected (m)"
+        known = dict(zip(heave, (found.heave, found.expected)))
+        room = {**known, "room below the lid (m)": found.room}
     if not found.has_suction:
         return [in_units(takes | {"water to vent (m³/h)": found.flow} | room, shown)]
     bars = in_range(found, found.required, found.required_bounds, "kPa")
