@@ -21,7 +21,8 @@ from caisson.band import BEST
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
 from caisson.verdict.installation import LITTLE, NOTHING, Rate, bounds_of
-from caisson.verdict.installation import error_asked_of, installation_of, plug_area
+from caisson.verdict.installation import around_tops, error_asked_of
+from caisson.verdict.installation import installation_of, plug_area
 from caisson.verdict.limits import rounded_down
 from caisson.verdict.outcome import feasible_to, reached
 
@@ -192,7 +193,9 @@ def over_depth(members: Members, column: str) -> Uncertainty | None:
     start, end = float(members[BEST].history[DEPTH].min()), end_of(members)
     if end <= start:
         return None
-    return uncertainty_of(members, column, np.linspace(start, end, POINTS))
+    at = np.linspace(start, end, POINTS)
+    at = np.union1d(at, around_tops(members[BEST], start, end))
+    return uncertainty_of(members, column, at)
 
 
 def end_of_upper(run: Results, members: Members) -> float | None:
