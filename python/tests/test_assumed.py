@@ -135,6 +135,13 @@ class Profiles(unittest.TestCase):
         self.assertEqual(found.at(0), 0)
         self.assertTrue(np.isnan(found.at(4.1)))
 
+    def test_boundary(self) -> None:
+        """At 3 m, where looser sand begins, q_c is still that of the upper layer, 14.03
+        MPa; below it is exp(-2.96 0.55) = 0.19632 times as large."""
+        found = assumed_cone((DENSE, DENSE._replace(top=3, density=0.3)), 5)
+        for z, mpa in ((3 - 1e-9, 14.0293), (3.0, 14.0293), (3 + 1e-5, 2.75425)):
+            self.assertAlmostEqual(found.at(z) / 1e6, mpa, delta=1e-3)
+
     def test_words(self) -> None:
         """They say where it is from and where it was not fitted; they name densities of
         the layers that the tip reaches, and what a small angle leaves open."""

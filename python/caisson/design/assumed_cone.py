@@ -24,7 +24,7 @@ SOURCE = "Jamiolkowski et al. (2003)"
 LEAST_STRESS = 10.0  # Pa, at the mudline
 LEAST_OF_STRENGTH = 150e3  # Pa, that a strength by Bolton follows
 STEP = 0.25  # m, of angles that change with depth
-JUMP = 1e-6  # m, half of the distance of two rows at the top of a layer
+JUMP = 1e-6  # m, over which q_c becomes that of the next layer, below its top
 
 
 class Sand(NamedTuple):
@@ -46,8 +46,8 @@ class SandGround:
         self.layers = sorted(layers, key=lambda layer: layer.top)
 
     def layer_at(self, z: float) -> Sand:
-        """Return the layer at a depth."""
-        return [x for x in self.layers if x.top <= z][-1]
+        """Return the layer at a depth, at a boundary the upper one."""
+        return [x for i, x in enumerate(self.layers) if i == 0 or x.top < z][-1]
 
     def stress_at(self, z: float) -> float:
         """Return the effective vertical stress."""
@@ -89,7 +89,7 @@ def words(ground: SandGround, rows: np.ndarray, deepest: float) -> str:
     by_layer = []
     for layer, bottom in zip(layers, [*(x.top for x in layers[1:]), deepest]):
         top = max(layer.top, 0.05 * deepest)  # without what is close to the mudline
-        found = [ground.density_at(z) for z in rows if top < z < bottom]
+        found = [ground.density_at(z) for z in rows if top < z <= bottom]
         if found and not layer.is_clay:
             text = ends([100 * min(found), 100 * max(found)], ".0f")
             by_layer.append(f"{text} % from {layer.top:g} m")
@@ -122,7 +122,7 @@ def assumed_cone(layers: tuple[Sand, ...], deepest: float) -> Profile:
     ground = SandGround(layers)
     tops = [x.top for x in ground.layers if 0 < x.top < deepest]
     rows = [deepest * (i / 200) ** 2 for i in range(1, 201)]
-    rows += [top + side for top in tops for side in (-JUMP, JUMP)]
+    rows += [top + side for top in tops for side in (0.0, JUMP)]
     rows.sort()
     found = Profile([0.0, *rows], [0.0, *map(ground.resistance_at, rows)])
     found.assumed = words(ground, found.depth, deepest)
