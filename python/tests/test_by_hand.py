@@ -301,6 +301,15 @@ class Sand(Scene):
         name = "exit_gradient_over_critical"
         self.assertAlmostEqual(found[name][0] / share, 1, places=9)
 
+    def test_flow_of_a_loosened_plug(self) -> None:
+        """k_f = 3 at h = D/2: a_1 = 0.21703 gives a = 0.65109 / (0.78297 + 0.65109) =
+        0.45402, and 3e-4 (1 - a) 1 kPa 49.27 m2 / 39.24 kPa are 0.20566 l/s."""
+        text = '{"plug_permeability_ratio": 3}'
+        (self.path / "design_methods.json").write_text(text, encoding="utf-8")
+        run = self.scene(SAND, weight=1.25e6)
+        found = run.flow_at(np.array([4.0]), np.array([1e3]))["seepage_flow_m3_s"]
+        np.testing.assert_allclose(found, 0.20566e-3, rtol=1e-4)
+
     def test_table_of_methods(self) -> None:
         """DNV and the unified method without flow, too: (R - W) / A."""
         run = self.scene(SAND, weight=1.25e6)

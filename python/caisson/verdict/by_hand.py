@@ -19,7 +19,8 @@ where no suction below piping suffices for them, it ends there.
 
 Half of the wall in the soil lifts the plug while the weight pushes it, and all of it
 under suction (assumed); that the sand loosens is left out. By Darcy, with the
-gradient of Houlsby & Byrne, k (1 - a) s A / (gamma_w h) seeps through the plug.
+gradient of Houlsby & Byrne, k_f k (1 - a) s A / (gamma_w h) seeps through the plug,
+which is k_f times as permeable as the ground.
 """
 import functools
 from collections.abc import Mapping
@@ -233,7 +234,7 @@ class ByHand(Results):
             left = 1 - pressure_factor(h / caisson.outer_diameter, ratio)
             gradient = left * s / (WEIGHT_OF_WATER * h) if h > 0 else 0.0
             area = suction.plug_area(caisson)
-            flow.append(self.permeability_at(h) * gradient * area)
+            flow.append(ratio * self.permeability_at(h) * gradient * area)
             piping = suction.piping_suction(caisson, h, ratio)
             share.append(s / piping if piping > 0 else 0.0)
         return {GRADIENT: np.array(share), "seepage_flow_m3_s": np.array(flow)}
