@@ -301,6 +301,7 @@ class Levelness(WithRun):
         self.assertEqual(level.differential[1], 4.5)
         self.assertAlmostEqual(level.tilt[0], 2.87, delta=0.03)
         self.says("tilt it by up to 2.9° at 4.5 m, more than the allowed 1°")
+        self.assertFalse("only to" in self.words())
         self.run_of(**given)
         self.says("not given: Design/Spread of buckets, nor runs of low and high")
         self.run_of(**given, Spread_of_buckets="0.1, 0.2")
@@ -309,6 +310,21 @@ class Levelness(WithRun):
         self.says("not given: Design/Distance of buckets")
         self.run_of()
         self.assertFalse("Levelness" in self.words())
+
+    def test_allowable_suction(self) -> None:
+        """A pump of 32 kPa is enough for the 30 kPa at 4.5 m, but not for the bucket
+        with 1.1 times the 3319 kN: (3651 - 1000) / 77.29 = 34.3 kPa; at 4 m it needs
+        (1.1 * 2932 - 1000) / 77.29 = 28.8 kPa."""
+        given = {"Number_of_buckets": "3", "Distance_of_buckets": "20"}
+        self.run_of(**given, Spread_of_buckets="0.1")
+        file = self.path / "run.json"
+        text = file.read_text(encoding="utf-8")
+        pump = '"entries": {"Water/Largest suction": "32e3", '
+        file.write_text(text.replace('"entries": {', pump, 1), encoding="utf-8")
+        self.says(
+            "which is possible only to 4 m: at 4.5 m the strongest bucket needs 34.3"
+            " kPa, and 32 kPa are allowed; one suction"
+        )
 
     def test_low_and_high_resistance(self) -> None:
         """Runs with 0.8 and 1.3 times the resistance of 3319 kN at 4.5 m: (1.3 - 0.8)

@@ -143,9 +143,11 @@ def scour_of(run: Results, found: Installation) -> Scour | None:
 class Level(NamedTuple):
     """Of several buckets: their number, the least and the largest resistance of each
     over that of the run, at the end, and where that is from; the largest differential
-    of suctions that keeps the frame level, with its depth; and the largest tilt under
-    one suction for all (degrees), with its depth, and that which is allowed (0 if it is
-    not given)."""
+    of suctions that keeps the frame level, with its depth; the largest tilt under one
+    suction for all (degrees), with its depth, and that which is allowed (0 if it is not
+    given); and where the strongest bucket first needs more than the allowable suction,
+    if it does: the depth above, to which the frame can be kept level (0 for none), that
+    depth, what the bucket needs, and what is allowed."""
 
     number: int
     ends: list[tuple[float, float]]
@@ -153,6 +155,7 @@ class Level(NamedTuple):
     differential: tuple[float, float]
     tilt: tuple[float, float]
     allowed: float
+    beyond: tuple[float, ...] = ()
 
 
 def resistance_at(run: Results, at: np.ndarray) -> np.ndarray:
@@ -227,7 +230,20 @@ def level_of(run: Results, found: Installation) -> Level | None:
         for i in rows
     )
     last = [(float(low), float(high)) for low, high in ends[rows[-1]]]
-    return Level(number, last, not spreads_of(run), apart, turned, given(run, TILT))
+    needs = (ends[..., 1].max(axis=1) * force - weight) / loads[1] / 1e3
+    parts = apart, turned, given(run, TILT), beyond_allowable(found, needs)
+    return Level(number, last, not spreads_of(run), *parts)
+
+
+def beyond_allowable(found: Installation, needs: np.ndarray) -> tuple[float, ...]:
+    """Return Level.beyond. needs: of the strongest bucket, [n] (kPa), nan where it is
+    not known."""
+    over = np.flatnonzero(needs > found.allowable)
+    if not len(over):
+        return ()
+    i, depth = int(over[0]), found.depth
+    numbers = depth[i - 1] if i else 0, depth[i], needs[i], found.allowable[i]
+    return tuple(map(float, numbers))
 
 
 class Load(NamedTuple):
