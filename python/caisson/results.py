@@ -184,6 +184,11 @@ class Results:
         every = {**self.known.get("defaults", {}), **self.known.get("entries", {})}
         return str(every.get(path, ""))
 
+    def assumes(self, name: str) -> bool:
+        """Return whether the scene marks an entry of this name as assumed."""
+        found: list[str] = self.known.get("assumed", [])
+        return name in {path.rpartition("/")[2] for path in found}
+
     @property
     def scene(self) -> dict[str, Any]:
         """The body and the layers of the soil; empty where they are not known yet."""

@@ -132,9 +132,14 @@ class Scene(unittest.TestCase):
         self.path = Path(temporary.name)
 
     def scene(
-        self, *layers: dict[str, Any], weight: float | None = 2e6, cone: bool = True
+        self,
+        *layers: dict[str, Any],
+        weight: float | None = 2e6,
+        cone: bool = True,
+        assumed: str = "",
     ) -> by_hand.ByHand:
-        """Return it with layers of soil, and a cone test of 2 MPa."""
+        """Return it with layers of soil, and a cone test of 2 MPa. assumed: an entry
+        that the scene marks so."""
         first = {"cavitation_suction_Pa": 3e5, "penetration_m": 0.5, "time_s": 0.0}
         scene: dict[str, Any] = {**SCENE, "layers": list(layers)}
         if weight:
@@ -153,6 +158,7 @@ class Scene(unittest.TestCase):
             "status": "finished",
             "entries": {"Time/End penetration": str(END), "Time/End time": "1e-9"},
             "results": {"warnings": warnings},
+            "assumed": [assumed],
             "scene": scene,
             "tip": {"width_m": T, "initial_penetration_m": 0.5},
         }
@@ -491,6 +497,14 @@ class Page(Scene):
         shutil.copytree(self.path, other)
         members = {"best": run, "high": by_hand.ByHand(other)}
         self.assertNotIn(words, self.text(by_hand.band_of(members)))
+
+    def test_assumed_permeability(self) -> None:
+        """Pump and flow at which to stop say so; that a given one follows the void
+        ratio may be assumed without a word."""
+        for name, is_said in ("Permeability by void ratio", False), ("Permeability", 1):
+            run = self.scene(SAND, weight=1.25e6, assumed=f"Soil/Layer 1/{name}")
+            for words in ("(permeability ASSUMED)", "; permeability ASSUMED: compare"):
+                self.assertEqual(words in self.text(run), bool(is_said), name)
 
     def test_six_curves(self) -> None:
         """At first sight, with what is behind the end of these."""

@@ -39,7 +39,7 @@ def stop_rows(run: Results, found: Installation, rate: Rate) -> list[list[str]]:
     """Return (criterion, number, what it rests on) of the vessel."""
     stop = acceptance.stop_of(run, found, run.planned or float(found.depth[-1]))
     flows = [template.say(pull.SENTENCES, "of_flow", x, 3) for x in stop.flow]
-    more = outcome.depth_of(run) is not None, run.known.get("assumed", [])
+    more = outcome.depth_of(run) is not None, run.assumes("Permeability")
     return say_rows("stop", run.shown, stop, rate.words, flows, *more, cells=3)
 
 

@@ -91,8 +91,7 @@ def uncertainty_of(run: Results) -> str:
     for found in reversed(at_end(band_of(run))):
         if found.values[-1] / 1e3 > NOTHING:
             name, unit = NAMES[found.column]
-            entries = {x.rpartition("/")[2] for x in run.known.get("assumed", [])}
-            assumed = [entry for entry in DOUBTFUL if entry in entries]
+            assumed = list(filter(run.assumes, DOUBTFUL))
             return say("uncertainty", found, run.shown, name, unit == "N", assumed)
     return ""
 
