@@ -506,6 +506,13 @@ class Page(Scene):
             for words in ("(permeability ASSUMED)", "; permeability ASSUMED: compare"):
                 self.assertEqual(words in self.text(run), bool(is_said), name)
 
+    def test_assumed_water_depth(self) -> None:
+        """The limit by boiling says so: 300 kPa at 0.5 m are 373.6 at 8 m."""
+        words = "water boils, of a water depth that is ASSUMED"
+        self.assertNotIn(words, self.text(self.scene(CLAY)))
+        run = self.scene(CLAY, assumed="Water/Water depth")
+        self.assertRegex(self.text(run), rf"{words} (\S+ ){{3}}374 ")
+
     def test_six_curves(self) -> None:
         """At first sight, with what is behind the end of these."""
         html = page.html(self.scene(SAND), Rate())

@@ -315,6 +315,11 @@ class UnderSuction(unittest.TestCase):
         for name in ("Level", "Permeability", "Drained outer side"):
             self.assertNotIn(name, found)
 
+    def test_assumed_water_depth(self) -> None:
+        """It is the default of the program, and marked."""
+        found = scene_in("--weight", "100kN", "--layer", "0: su = 5 kPa")
+        self.assertRegex(found["Water depth"], "^30 # ASSUMED")
+
     def test_clay_and_sand(self) -> None:
         """Also sand that only lies below the skirt is drained from its far side."""
         for texts in (

@@ -20,7 +20,7 @@ from caisson.results import Results
 from caisson.verdict import outcome, retrieval, run_review, theory, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
-from caisson.verdict.limits import COMPUTED, PIPING
+from caisson.verdict.limits import COMPUTED, PIPING, REVERSE_BEARING
 
 NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
@@ -164,7 +164,7 @@ def rows_of_limits(run: Results, end: float | None) -> list[dict[str, Any]]:
                 "factor": found.factors[name],
             }
         )
-        if found.remark(name, i):
+        if name == REVERSE_BEARING and found.remark(name, i):
             rows[-1]["soft_layer_top_m"] = float(found.soft_below[i])
     return rows
 

@@ -101,7 +101,8 @@ def add_caisson_arguments(parser: argparse.ArgumentParser, required: bool) -> No
     add("--embedment", type=number("m"), metavar="M", help=text)
     text = "in water; the rest takes suction"
     add("--weight", type=number("N"), metavar="N", help=text)
-    add("--water-depth", type=number("m"), metavar="M", help="bounds the suction")
+    text = "bounds the suction by boiling (default: 30, ASSUMED)"
+    add("--water-depth", type=number("m"), metavar="M", help=text)
     text = (
         "of sand given by its density: by density and stress (default), or hypoplastic;"
         " a cone test takes the first, which answers it"

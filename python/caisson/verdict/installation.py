@@ -85,6 +85,7 @@ class Installation:
     required_bounds: Bounds | None = None
     excess: float | None = None  # kN, of the weight at the end, without any suction
     limits: dict[str, np.ndarray] = field(default_factory=dict)  # by their factors
+    assumes: dict[str, str] = field(default_factory=dict)  # of limits, in words
     factors: dict[str, float] = field(default_factory=dict)
     # m, top of the soft layer below the tip that governs reverse bearing, nan if none
     soft_below: np.ndarray = field(default_factory=lambda: np.empty(0))
@@ -152,10 +153,10 @@ class Installation:
         return f"{name}{self.remark(name, i)}"
 
     def remark(self, name: str, i: int | None = None) -> str:
-        """Return what to add to the name of a limit at a depth, or at all depths: the
-        soft layers below the tip that govern it."""
+        """Return what to add to the name of a limit at a depth, or at all depths: what
+        it assumes, or the soft layers below the tip that govern it."""
         if name != limits.REVERSE_BEARING:
-            return ""
+            return self.assumes.get(name, "")
         tops = self.soft_below if i is None else self.soft_below[i : i + 1]
         words = limits.soft_in_words(tops, self.shown)
         return f": {words}" if words else ""
@@ -270,6 +271,8 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
         found.lid = limits.lid_depth(at, factored)
     found.limits, found.factors = limits.limits_of(run, at), factors
     found.absent = limits.absent_of(run, found.limits)
+    if run.assumes("Water depth"):
+        found.assumes[limits.BOILING] = ", of a water depth that is ASSUMED"
     found.soft_below = theory.soft_below(theory.site_of(run), at)
     found.rest = rest_of(run)
     if scene.get("diameter_m"):
