@@ -18,6 +18,7 @@ DEPTH, TOTAL, SUCTION = "penetration_m", "total_force_N", "required_suction_Pa"
 HEAVE, ROOM, BOILING = "plug_heave_m", "room_below_lid_m", "cavitation_suction_Pa"
 EXPECTED_HEAVE = "expected_heave_m"
 UNDER_WEIGHT = 0.5  # of the wall goes into the plug, and all of it under suction
+OPEN = 0.5  # of the way of a ring in clay
 GRADIENT = "exit_gradient_over_critical"
 COLUMNS = (
     "tip_force_N",
@@ -86,7 +87,25 @@ def heave_of_wall(run: Results, depth: np.ndarray, required: np.ndarray) -> np.n
         return np.zeros(len(depth))
     share = (float(outer) / (float(outer) - 2 * float(wall))) ** 2 - 1
     part = np.where(required > 0, 1.0, UNDER_WEIGHT)
-    return share * np.cumsum(part * np.diff(depth, prepend=0.0))
+    by_tip = share * np.cumsum(part * np.diff(depth, prepend=0.0))
+    return by_tip + heave_of_ledges(run, depth)
+
+
+def heave_of_ledges(run: Results, depth: np.ndarray) -> np.ndarray:
+    """Return the heave of the plug by the ledges inside [n] (m) at embedments [n] (m):
+    by the steel above them that is in the soil or, if that is more, by half of their
+    way in clay, which leaves a gap above a ring (custom; 0.4 to 0.5 in a run)."""
+    layers = run.scene.get("layers", [run.scene])
+    tops = [float(layer.get("top_depth_m") or 0) for layer in layers]
+    ends, volume = zip(tops, [*tops[1:], np.inf]), np.zeros(len(depth))
+    clays = [x for x, layer in zip(ends, layers) if not layer.get("friction_angle_deg")]
+    for ledge in (x for x in run.ledges if x.is_inside):
+        below = np.maximum(depth - ledge.height, 0.0)
+        open_in = (np.clip(below, top, bottom) - top for top, bottom in clays)
+        steel = np.minimum(below, ledge.steel)
+        volume += ledge.area * np.maximum(OPEN * sum(open_in), steel)
+    inner = [float(run.scene[x]) for x in ("diameter_m", "wall_thickness_m")]
+    return volume / (np.pi / 4 * (inner[0] - 2 * inner[1]) ** 2)
 
 
 def way_of(run: Results, rows: np.ndarray) -> Way:

@@ -15,6 +15,7 @@ import numpy as np
 
 from caisson import disk, paths, run_shape
 from caisson.disk import InputError, is_locked
+from caisson.ledges import FLUSH, Ledge, ledges_of
 from caisson.shown import Units, units_of
 
 Table = dict[str, np.ndarray]
@@ -167,13 +168,6 @@ class Results:
             raise ResultsError(f"{path} has no {name}")
         return found
 
-    def parts_of_wall(self, name: str, *lengths: str) -> list[tuple[float, ...]]:
-        """Return lengths (m) of the rings or steps of a wall ("ring", "wall_step") from
-        below, such as above_tip."""
-        keys = [[f"{name}_{i}_{x}_m" for x in lengths] for i in range(1, 21)]
-        known = [row for row in keys if row[0] in self.scene]
-        return [tuple(float(self.scene[key]) for key in row) for row in known]
-
     @property
     def known(self) -> dict[str, Any]:
         """run.json; empty where a run has left none yet."""
@@ -193,6 +187,11 @@ class Results:
     def scene(self) -> dict[str, Any]:
         """The body and the layers of the soil; empty where they are not known yet."""
         return self.known.get("scene") or {}
+
+    @property
+    def ledges(self) -> tuple[Ledge, ...]:
+        """The lower faces of rings and steps of a caisson's wall."""
+        return ledges_of({**self.scene, FLUSH: self.entry("Rigid body/Flush face")})
 
     @property
     def weight(self) -> float:

@@ -5,7 +5,7 @@ import re
 import shutil
 import tempfile
 import unittest
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import atan, exp, pi, radians, tan
 from pathlib import Path
 from typing import Any
@@ -137,11 +137,12 @@ class Scene(unittest.TestCase):
         weight: float | None = 2e6,
         cone: bool = True,
         assumed: str = "",
+        body: Mapping[str, float] = {},
     ) -> by_hand.ByHand:
         """Return it with layers of soil, and a cone test of 2 MPa. assumed: an entry
-        that the scene marks so."""
+        that the scene marks so; body: sizes of its wall."""
         first = {"cavitation_suction_Pa": 3e5, "penetration_m": 0.5, "time_s": 0.0}
-        scene: dict[str, Any] = {**SCENE, "layers": list(layers)}
+        scene: dict[str, Any] = {**SCENE, **body, "layers": list(layers)}
         if weight:
             scene["submerged_weight_N"] = weight
         warnings = [

@@ -8,7 +8,10 @@ soil above it:
 
 With the adhesion s_u over the sensitivity, this is what is used for skirts and suction
 anchors (Andersen et al. 2005; DNV-RP-E303). The tip is a strip in the lower case,
-N_c = 7.5, and a circle in the upper one, N_c = 9, both at depth (Skempton 1951).
+N_c = 7.5, and a circle in the upper one, N_c = 9, both at depth (Skempton 1951). Ledges
+bear as the tip does, at their depth z; there N_c grows with 1 + 0.2 z / B up to a depth
+of 2.5 widths B (Skempton 1951). Above the lowest ring the inner wall has the adhesion
+only in the upper case: clay may stand, and leave a gap (custom).
 
 K.H. Andersen, J.D. Murff, M.F. Randolph, E.C. Clukey, C.T. Erbrich, H.P. Jostad,
 B. Hansen, C. Aubeny, P. Sharma, C. Supachawarote (2005), Suction anchors for deepwater
@@ -23,11 +26,13 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.design.cone import Skirt
-from caisson.design.method import Forces, between, vertical_stress
+from caisson.design.method import Forces, between, vertical_stress, with_ledges
+from caisson.ledges import Ledge
 
 CASES = ("strip", "circle")
 THIN, ALIKE = 1.0, 0.3  # m, and of s_u: parts of a profile
 N_C = dict(zip(CASES, (7.5, 9.0)))
+DEEP = 2.5  # widths, from where on N_c is that at depth
 
 
 class Layer(NamedTuple):
@@ -76,12 +81,33 @@ class Clay:
 
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
-        adhesions = [(x.inner_adhesion, x.outer_adhesion) for x in self.layers]
-        inner, outer = map(float, between(self.layers, 0.0, h) @ np.array(adhesions))
-        stress = vertical_stress(self.layers, h)
-        strength = strength_at(self.layers, h)
+
+        def pressure(ledge: Ledge, z: float) -> float:
+            return self.pressure(z, case, ledge.width)
+
+        return with_ledges(self.plain_forces(h, case), self.skirt.ledges, h, pressure)
+
+    def pressure(self, z: float, case: str, width: float = 0.0) -> float:
+        """Return what bears on a face that looks down at a depth (Pa); 0 in sand.
+        width: of the face (m)."""
+        if not (strength := strength_at(self.layers, z)):
+            return 0.0
+        share = 1.0
+        if z < DEEP * width:
+            share = (1 + 0.2 * z / width) / (1 + 0.2 * DEEP)
+        return vertical_stress(self.layers, z) + share * N_C[case] * strength
+
+    def plain_forces(self, h: float, case: str) -> Forces:
+        """Return the forces on the tip and on the walls at an embedment."""
+        adhesions = np.array(
+            [(x.inner_adhesion, x.outer_adhesion) for x in self.layers]
+        )
+        rings = [x.height for x in self.skirt.ledges if x.steel < inf]
+        gap = max(h - min(rings), 0.0) if rings and case == CASES[0] else 0.0
+        inner = float(between(self.layers, gap, h) @ adhesions[:, 0])
+        outer = float(between(self.layers, 0.0, h) @ adhesions[:, 1])
         return Forces(
-            self.skirt.tip_area * (stress + N_C[case] * strength),
+            self.skirt.tip_area * self.pressure(h, case),
             pi * self.skirt.inner_diameter * inner,
             pi * self.skirt.outer_diameter * outer,
         )

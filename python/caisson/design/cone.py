@@ -3,7 +3,7 @@
 
 The methods from a cone take the forces as proportional to the cone resistance q_c:
 
-    tip = k_p q_c(h) A,                  A = pi (D_o - t) t,
+    tip = k_p q_c(h) A,                  A = pi (D_o - t) t,     and so on ledges,
     friction = pi D integral of k_f q_c dz from 0 to h, on each wall,
 
 with D = D_o outside and D_i inside, the wall thickness t, and k_p and k_f of the layer
@@ -28,7 +28,8 @@ from caisson.band import HIGH, LOW
 from caisson.design import cone_file
 from caisson.disk import InputError
 from caisson.design.cone_options import How
-from caisson.design.method import Forces
+from caisson.design.method import Forces, with_ledges
+from caisson.ledges import Ledge
 
 NAME = "cone.csv"  # of the test in the directory of a run
 
@@ -68,6 +69,7 @@ class Skirt(NamedTuple):
     wall_thickness: float  # m
     inner_friction_angle: float  # with the soil, degrees
     outer_friction_angle: float
+    ledges: tuple[Ledge, ...] = ()
 
     @property
     def inner_diameter(self) -> float:
@@ -111,18 +113,29 @@ class ConeMethod:
 
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
+        found = self.plain_forces(h, case)
+        return with_ledges(
+            found, self.skirt.ledges, h, lambda _, z: self.pressure(z, case)
+        )
+
+    def pressure(self, z: float, case: str) -> float:
+        """Return what bears on a face that looks down at a depth (Pa): k_p q_c."""
+        above = [layer for layer in self.layers if layer.top < z] or self.layers[:1]
+        return above[-1].coefficients[case].tip * self.profile.at(z)
+
+    def plain_forces(self, h: float, case: str) -> Forces:
+        """Return the forces on the tip and on the walls at an embedment."""
         bottoms = [layer.top for layer in self.layers[1:]] + [inf]
         inner = outer = 0.0
-        tip = self.layers[0].coefficients[case].tip
         for layer, bottom in zip(self.layers, bottoms):
             if layer.top >= h:
                 break
             k = layer.coefficients[case]
             part = self.profile.integral(min(bottom, h))
             part -= self.profile.integral(layer.top)
-            inner, outer, tip = inner + k.inner * part, outer + k.outer * part, k.tip
+            inner, outer = inner + k.inner * part, outer + k.outer * part
         return Forces(
-            tip * self.profile.at(h) * self.skirt.tip_area,
+            self.pressure(h, case) * self.skirt.tip_area,
             inner * pi * self.skirt.inner_diameter,
             outer * pi * self.skirt.outer_diameter,
         )

@@ -18,7 +18,7 @@ has no friction.
 The paper has one layer. With several, gamma' and K are those of the layer at the
 depth, and the stress continues from layer to layer without a jump. The tip is a
 strip footing, in the layer in which it is, under the (unequal) stress of both
-sides.
+sides; a ledge (not in the paper) is one, too, under the stress of its side.
 
 Suction makes water flow down outside and up inside. The paper takes both
 gradients as uniform over the embedment; so they are here, in layers too: flow
@@ -35,7 +35,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from caisson.design.method import Forces
+from caisson.design.method import Forces, with_ledges
+from caisson.ledges import Ledge
 
 # N_gamma of a rough strip footing by the method of characteristics (Martin
 # 2005, Exact bearing capacity calculations using the method of
@@ -141,11 +142,13 @@ class Caisson:
         outer_friction_angle: float,
         spread: float | None = None,
         k_tan_delta: tuple[float, float] | None = None,
+        ledges: Sequence[Ledge] = (),
     ) -> None:
         """diameter: outer one; layers: from the surface down; spread: m, None without
         stress enhancement; k_tan_delta: K tan(delta) of the inner and the outer wall,
         None for undisturbed ground."""
         self.outer_diameter, self.t = diameter, wall_thickness
+        self.ledges = ledges
         self.layers = sorted(layers, key=lambda layer: layer.top)
         self.enhanced = spread is not None
         inner = diameter - 2 * wall_thickness
@@ -183,30 +186,39 @@ class Caisson:
         whole = pi * self.outer.diameter * integral
         return friction / whole if whole > 0 else nan
 
-    def _tip_between(
-        self, inner: float, outer: float, h: float, seepage: Seepage
+    def _pressure_between(
+        self, inner: float, outer: float, h: float, t: float, added: float
     ) -> float:
-        """Return the force on the tip from the vertical stresses beside it (Pa)."""
+        """Return what bears on a strip of a width t (m), as the tip, from the vertical
+        stresses beside it (Pa). added: to the unit weight, by flow."""
         low, high = sorted((inner, outer))
         layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
         n_q = bearing_factor_surcharge(layer.friction_angle)
         n_gamma = bearing_factor_weight(layer.friction_angle)
-        weight, t = layer.weight_under(seepage.inner), self.t
+        weight = layer.weight_under(added)
         x = t  # the part of the tip where the soil flows to the low side
         if n_gamma > 0 and weight > 0:
             x = t / 2 + (high - low) * n_q / (4 * weight * n_gamma)
         if high > low and x >= t:
-            end = low * n_q + weight * t * n_gamma
-        else:
-            end = high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
-        return end * pi * (self.outer_diameter - t) * t
+            return low * n_q + weight * t * n_gamma
+        return high * n_q + weight * n_gamma * (t - 2 * min(x, t) ** 2 / t)
 
     def forces(self, h: float, seepage: Seepage = STILL) -> Forces:
         """Return the force on the tip, with a flat end of the wall, and the friction
         on both walls."""
         inner, inside = self._go_down(self.inner, h, seepage.inner)
         outer, outside = self._go_down(self.outer, h, seepage.outer)
-        return Forces(self._tip_between(inner, outer, h, seepage), inside, outside)
+        end = self._pressure_between(inner, outer, h, self.t, seepage.inner)
+        tip = end * pi * (self.outer_diameter - self.t) * self.t
+
+        def pressure(ledge: Ledge, z: float) -> float:
+            wall, added = self.outer, seepage.outer
+            if ledge.is_inside:
+                wall, added = self.inner, seepage.inner
+            beside, _ = self._go_down(wall, z, added)
+            return self._pressure_between(beside, beside, z, ledge.width, added)
+
+        return with_ledges(Forces(tip, inside, outside), self.ledges, h, pressure)
 
     def resistance(self, h: float, seepage: Seepage = STILL) -> float:
         """Return the friction on both walls and the force on the tip."""
@@ -248,13 +260,14 @@ def method(
     layers: Sequence[Layer],
     friction_angles: tuple[float, float],
     assumed: Assumptions,
+    ledges: Sequence[Ledge] = (),
 ) -> HoulsbyByrne:
     """Return the method for sand. friction_angles: of the inner and outer wall."""
     geometry = diameter, wall_thickness, layers, *friction_angles
     ranges = zip(assumed.k_tan_delta_inside, assumed.k_tan_delta_outside)
     by_name = {
-        name: Caisson(*geometry, assumed.load_spread, pair)
+        name: Caisson(*geometry, assumed.load_spread, pair, ledges)
         for name, pair in zip(HoulsbyByrne.cases, ranges)
     }
-    by_name[UNDISTURBED] = Caisson(*geometry)
+    by_name[UNDISTURBED] = Caisson(*geometry, ledges=ledges)
     return HoulsbyByrne(by_name, assumed.plug_permeability_ratio)

@@ -10,7 +10,7 @@ The forces are those of jacking. Suction takes from them in sand through which w
 flows up to the lid, not in sand below clay.
 """
 from caisson.design import dnv
-from caisson.design.clay import CASES, Clay, tip_layer
+from caisson.design.clay import CASES, Clay
 from caisson.design.cone import Profile
 from caisson.design.method import Forces
 
@@ -30,7 +30,4 @@ class Layered:
         """Return the forces at an embedment."""
         clay = self.clay.forces(h, case)
         sand = self.sand.forces(h, dnv.CASES[CASES.index(case)])
-        is_clay = self.clay.layers[tip_layer(self.clay.layers, h)].strength > 0
-        tip = clay.tip if is_clay else sand.tip
-        walls = (a + b for a, b in zip(clay[1:], sand[1:]))
-        return Forces(tip, *walls)
+        return Forces(*(a + b for a, b in zip(clay, sand)))

@@ -8,11 +8,13 @@ highest, or the ends of a range of coefficients.
 
 SI units; forces are those of the whole circumference, upward positive.
 """
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import inf
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+
+from caisson.ledges import Ledge
 
 
 class Forces(NamedTuple):
@@ -26,6 +28,23 @@ class Forces(NamedTuple):
     def total(self) -> float:
         """The penetration resistance (N)."""
         return self.tip + self.inner_friction + self.outer_friction
+
+
+def with_ledges(
+    forces: Forces,
+    ledges: Iterable[Ledge],
+    h: float,
+    pressure: Callable[[Ledge, float], float],
+) -> Forces:
+    """Return forces at an embedment (m) with what bears on the ledges that are in the
+    soil: inside it is a part of the tip force, and outside one of the outer friction.
+    pressure: on a ledge at a depth (Pa)."""
+    more = {True: 0.0, False: 0.0}
+    for x in ledges:
+        if (z := h - x.height) > 0:
+            more[x.is_inside] += x.area * pressure(x, z)
+    tip, inner, outer = forces
+    return Forces(tip + more[True], inner, outer + more[False])
 
 
 class Method(Protocol):

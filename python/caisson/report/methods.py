@@ -348,7 +348,7 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     name = "best: the mean" if run.by_hand else "computed"
     rows.append(cells(name, rest, own, here.required * 1e3))
     heads = map(shown.named, OVERVIEW)
-    note = say(SENTENCES, "overview", bool(run.by_hand))
+    note = say(SENTENCES, "overview", bool(run.by_hand), bool(run.ledges))
     return {"heads": [*heads], "rows": rows, "note": note, "place": shown.place(depth)}
 
 

@@ -3,6 +3,7 @@
 import html
 import math
 
+from caisson.ledges import parts_of_wall
 from caisson.results import Results
 from caisson.report.layers import Layer, layers_of, number_in_words, strength_of
 from caisson.report.scene import BODY
@@ -148,7 +149,7 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
     outer, thinnest = float(run.scene["diameter_m"]) / 2, LEAST_WALL / drawing.scale
     at_tip = max(float(run.scene["wall_thickness_m"]), thinnest)
     steps = [(0.0, at_tip)]
-    for place, width in run.parts_of_wall("wall_step", "above_tip", "thickness"):
+    for place, width in parts_of_wall(run.scene, "wall_step", "above_tip", "thickness"):
         steps.append((place, max(width, thinnest)))
     angle = float(run.entry(f"{BODY}/Tip angle") or 45)
     is_flat = run.entry(f"{BODY}/Tip") != "triangular"  # that of older files is
@@ -168,8 +169,8 @@ def draw_walls(drawing: Drawing, run: Results, lid: float, depth: float) -> None
                 drawing.wall(left, top, thickness, depth, slope)
             else:
                 drawing.box("steel", left, top, left + thickness, depth - place)
-    for place, width, height in run.parts_of_wall(
-        "ring", "above_tip", "width", "height"
+    for place, width, height in parts_of_wall(
+        run.scene, "ring", "above_tip", "width", "height"
     ):
         inner, _ = faces([t for at, t in steps if at <= place][-1])
         for left in (-inner, inner - width):

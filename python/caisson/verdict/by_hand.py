@@ -36,7 +36,7 @@ from caisson.design.own_cone import DIAMETER
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
 from caisson.design.seepage import pressure_factor
 from caisson.evaluation import BOILING, DEPTH, GRADIENT, HEAVE, SUCTION, TOTAL
-from caisson.evaluation import UNDER_WEIGHT
+from caisson.evaluation import UNDER_WEIGHT, heave_of_ledges
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import query, set_options
 from caisson.units import GRAVITY
@@ -210,7 +210,8 @@ class ByHand(Results):
         rest = self.end if self.rest is None or not self.weight else self.rest
         by_weight = UNDER_WEIGHT * np.minimum(depth, rest)
         share = skirt.tip_area / (pi / 4 * skirt.inner_diameter**2)
-        return share * (by_weight + np.maximum(depth - rest, 0.0))
+        by_tip = share * (by_weight + np.maximum(depth - rest, 0.0))
+        return by_tip + heave_of_ledges(self, depth)
 
     def permeability_at(self, h: float) -> float:
         """Return the permeability (m/s) of the plug down to an embedment (m) for the

@@ -19,6 +19,7 @@ from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson import evaluation
 from caisson.evaluation import DEPTH, EXPECTED_HEAVE, HEAVE, at_depths, pump_limit
+from caisson.ledges import parts_of_wall
 from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
 from caisson.shown import Units
@@ -139,11 +140,11 @@ def wall_of(run: Results) -> shell.Wall | None:
     if None in known:
         return None
     outer, thickness, length = (float(x or 0) for x in known)
-    steps = run.parts_of_wall("wall_step", "thickness")
+    steps = parts_of_wall(run.scene, "wall_step", "thickness")
     thinnest = min([thickness, *(step for (step,) in steps)])
     strength, modulus, fixity, spacing = (number_of(run, name) for name in STEEL)
     steel = strength, modulus, fixity, spacing or inf
-    rings = run.parts_of_wall("ring", "above_tip", "width", "height")
+    rings = parts_of_wall(run.scene, "ring", "above_tip", "width", "height")
     stiffeners = tuple(
         shell.Ring(length - place - height / 2, width, height)
         for place, width, height in reversed(rings)

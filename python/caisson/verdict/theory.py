@@ -22,6 +22,7 @@ from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
 from caisson.design.method import Method
+from caisson.ledges import FLUSH, ledges_of
 
 Scene = Mapping[str, Any]
 Of = TypeVar("Of")
@@ -70,7 +71,8 @@ def site_of(run: Results) -> Site:
     if not run.scene and run.is_running:
         return Site({}, cone=test, is_running=True)
     given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
-    scene = {**run.scene, "design_methods": given}
+    flush = run.entry("Rigid body/Flush face")
+    scene = {**run.scene, "design_methods": given, FLUSH: flush}
     return Site(scene, run.entry("Water/Level") or "drained", test)
 
 
@@ -153,7 +155,8 @@ def skirt_of(site: Site) -> Skirt:
                 f"run.json does not have the friction of the {side} wall"
             )
         frictions.append(float(angle))
-    return Skirt(*(float(scene[name]) for name in SIZES), *frictions)
+    sizes = [float(scene[name]) for name in SIZES]
+    return Skirt(sizes[0], sizes[1], frictions[0], frictions[1], ledges_of(scene))
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
@@ -257,6 +260,7 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
         layers,
         (skirt.inner_friction_angle, skirt.outer_friction_angle),
         assumptions_of(site.scene),
+        skirt.ledges,
     )
 
 
