@@ -28,7 +28,7 @@ class SuggestTest(ProgramTest):
 
     def setUp(self) -> None:
         if not self.has_page:
-            patch = mock.patch("caisson.suggest.trial.by_hand", return_value="")
+            patch = mock.patch("caisson.suggest.by_hand", return_value="")
             self.enterContext(patch)
 
     def suggest(
@@ -219,7 +219,7 @@ class Layers(SuggestTest):
             "0: Friction angle = 38, Youngs modulus = 5e6",
             "2.95: Friction angle = 43, Youngs modulus = 4e7",
         )
-        self.suggest(path / "own.prm", layers=layers)
+        self.suggest(path / "own.prm", "--error", "20", layers=layers)
         zone = read_parameters([str(path / "own.prm")])["Grid/Moving zone below tip"]
         self.assertAlmostEqual(float(zone), 2.45)
         entries = {"Time/End penetration": 0.6, "Output/Frame penetrations": ""}
