@@ -9,7 +9,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from program import HERE, SUCCESS, ProgramTest, caisson, history, summary, user_scene
+from program import HERE, SUCCESS, ProgramTest, caisson, history, scene, summary
+from program import user_scene
 
 from caisson import run_error_bar, ranks
 from caisson.paths import PROGRAM
@@ -81,8 +82,9 @@ class Launch(CommandTest):
     def test_ctrl_c_on_two_ranks(self) -> None:
         """The run stops in order: with a checkpoint, and the status that says so."""
         path = self.directory()
-        run, *more = self.run_to(3.0, path)
-        words = self.words(run, "--ranks", "2", *more)
+        sets = [w for k, v in NO_FRAMES.items() for w in ("--set", f"{k}={v}")]
+        sets += ["--set", "Time/End penetration=3", "--output-directory", str(path)]
+        words = self.words("run", "--ranks", "2", scene("jack"), *sets)
         process = subprocess.Popen(
             words,
             text=True,
@@ -123,9 +125,9 @@ end
         """Two meshes and the runs with other numerics on the coarse one; a run
         then finds its bar. A budget for one mesh is refused with the one to set."""
         path = self.made_directory()
-        scene = path / "own.prm"
-        scene.write_text(self.SCENE, encoding="utf-8")
-        call = ["error-bar", str(scene), "--results", str(path / "runs")]
+        file = path / "own.prm"
+        file.write_text(self.SCENE, encoding="utf-8")
+        call = ["error-bar", str(file), "--results", str(path / "runs")]
         listed, _ = self.caisson(*call, "--list")
         self.assertRegex(listed, r"(?m)^refinement 0.5: about .*\ndefault: about ")
         self.assertFalse((path / "runs").exists())
@@ -136,39 +138,41 @@ end
         again, _ = self.caisson(*call)
         self.assertIn("runs to do: 0", again)
         results = path / "results"
-        self.run_program(SUCCESS, str(scene), "--output-directory", results)
+        self.run_program(SUCCESS, str(file), "--output-directory", results)
         run_error_bar.adopt(results)
         bounds = Results(results).error_bounds
         self.assertGreater(len(bounds["total_force_low_N"]), 5)
         self.assertTrue((bounds["total_force_low_N"] < bounds["total_force_N"]).all())
         self.assertTrue((bounds["total_force_high_N"] > bounds["total_force_N"]).all())
         self.assertIn("total_force_limit_N", bounds)
-        with (path / "own_error_bar.csv").open("a", encoding="utf-8") as file:
-            file.write("# checked\n")
+        with (path / "own_error_bar.csv").open("a", encoding="utf-8") as bar:
+            bar.write("# checked\n")
         self.assertIn("exists, and differs", self.caisson(*call, status=1)[1])
         self.assertIn(
             "exists. Choose", self.caisson(*call, "--results", str(path), status=1)[1]
         )
-        scene.write_text(self.SCENE.replace("wall = 4", "wall = 2"), encoding="utf-8")
+        file.write_text(self.SCENE.replace("wall = 4", "wall = 2"), encoding="utf-8")
         complaint = self.caisson(*call, status=1)[1]
         self.assertRegex(
             complaint, "not enough for a second mesh. Set --budget [0-9.]+(s|min|h),"
         )
 
-    def test_wanted_error(self) -> None:
+    @mock.patch("caisson.report.write")  # which test_run_command.py looks at
+    @mock.patch("caisson.plot.draw", return_value=[])
+    def test_wanted_error(self, *_: mock.Mock) -> None:
         """The first mesh that is good enough runs with its bar; an error that comes
         from the mass scaling is not looked for on finer meshes."""
         path = self.made_directory()
-        scene = path / "own.prm"
-        scene.write_text(self.SCENE, encoding="utf-8")
+        file = path / "own.prm"
+        file.write_text(self.SCENE, encoding="utf-8")
         to = ["--output-directory", str(path / "new" / "results")]
-        said, _ = self.caisson("run", "--error", "45%", str(scene), *to)
+        said, _ = self.caisson("run", "--error", "45%", str(file), *to)
         self.assertRegex(said, r"(?m)^refinement 1: error of the total force \d")
         self.assertNotIn("refinement 1.5:", said)
         self.assertIn(
             "total_force_low_N", Results(path / "new" / "results").error_bounds
         )
-        call = ["run", "--error", "20%", str(scene), *to]
+        call = ["run", "--error", "20%", str(file), *to]
         self.assertIn("a quarter of Time/Inertia", self.caisson(*call, status=1)[1])
         call[1:1] = ["--budget", "0.1s"]
         self.assertIn("Set --budget ", self.caisson(*call, status=1)[1])
@@ -177,7 +181,11 @@ end
 
 
 class Suggest(CommandTest):
-    """Scenes of caisson suggest."""
+    """Scenes of caisson suggest, without a page, which test_suggest.py looks at."""
+
+    def setUp(self) -> None:
+        patch = mock.patch("caisson.suggest.by_hand", return_value="")
+        self.enterContext(patch)
 
     def suggest(
         self, path: Path, layer: str, status: int = 0, error: int = 20
