@@ -20,6 +20,8 @@ from program import (
     summary,
 )
 
+from caisson.runner import read_parameters
+
 SAME = """material_points body_points cells steps held_back_count limiter_count
     points_split points_merged""".split()
 HALVED: Entries = {
@@ -77,7 +79,7 @@ class Ranks(ProgramTest):
 
     def test_hanging_nodes_and_changing_points(self) -> None:
         """Three ranks, which on two cores wait for each other in each step."""
-        one = self.compare_ranks(3, 1, {**HALVED, "Time/End penetration": 0.8})
+        one = self.compare_ranks(3, 1, {**HALVED, "Time/End penetration": 0.68})
         self.assertGreater(one["points_split"], 100)
         self.assertGreater(one["points_merged"], 100)
 
@@ -90,9 +92,9 @@ class Restart(ProgramTest):
         points that split and merge."""
         whole, stopped = self.directory("whole"), self.directory("stopped")
         entries = {**HALVED, "Output/Record interval": 0.05}
-        entries["Time/End penetration"] = 0.7
+        entries["Time/End penetration"] = 0.63
         self.run_scene("jack", whole, entries=entries)
-        limited = {**entries, "Run control/Wall time limit": 0.2}
+        limited = {**entries, "Run control/Wall time limit": 0.1}
         self.run_scene("jack", stopped, STOPPED, entries=limited, ranks=2)
         path = self.directory("restart")
         shutil.copytree(stopped, path)
@@ -112,11 +114,15 @@ class OtherScenes(ProgramTest):
     """Scenes without a body."""
 
     def test_verification(self) -> None:
+        """Checks have the same numbers; one that fails is a failure."""
         paths = [self.directory(f"verify_{n}") for n in (1, 2)]
-        for n, path in enumerate(paths, 1):
-            self.run_scene("wave_series", path, ranks=n)
+        name, wrong = "Verification/Checks", "final half : -4 : 0.03"
+        given = read_parameters([scene("wave_series")])[name]
+        self.run_scene("wave_series", paths[0])
+        more: Entries = {name: f"{given}; {wrong}"}
+        self.run_scene("wave_series", paths[1], FAILURE, entries=more, ranks=2)
         one, two = map(checks, paths)
-        self.assertEqual(len(one), len(two))
+        self.assertEqual([check["pass"] for check in two], [*[True] * len(one), False])
         self.assertGreater(len(one), 5)
         for a, b in zip(one, two):
             for key in a:
@@ -127,8 +133,6 @@ class OtherScenes(ProgramTest):
         for x, y in zip(*[history(path, "observations") for path in paths]):
             for key in x:
                 self.assertAlmostEqual(x[key], y[key], delta=1e-9, msg=key)
-        wrong = {"Verification/Checks": "final half : -4 : 0.03"}
-        self.run_scene("wave_series", paths[1], FAILURE, entries=wrong, ranks=2)
 
     def test_more_ranks_than_cells(self) -> None:
         text = self.run_scene(
