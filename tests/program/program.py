@@ -30,7 +30,7 @@ HERE = Path(__file__).resolve().parent.parent  # tests
 sys.path[:0] = [str(HERE.parent / folder) for folder in ("python", "tools", ".")]
 
 from caisson import __main__ as command_line  # noqa: E402
-from caisson import runner  # noqa: E402
+from caisson import disk, runner  # noqa: E402
 from caisson.paths import BUILD, PROGRAM, SCENES  # noqa: E402
 from caisson.results import Results  # noqa: E402
 from caisson.runner import Status, environment, mpi_command, set_options  # noqa: E402
@@ -179,6 +179,7 @@ class ThroughServer:
 
 
 setattr(runner, "subprocess", ThroughServer())
+setattr(disk.save, "__defaults__", (40,))  # dpi of pictures, at which nobody looks
 
 
 def caisson(*words: Any, cwd: Path | None = None) -> "subprocess.CompletedProcess[str]":
