@@ -17,6 +17,10 @@ class Start(ProgramTest):
         """Return the tip force (N) at a penetration of 0.06 m."""
         path = self.directory(name)
         more: dict[str, Any] = {
+            "Rigid body/Skirt length": 3,
+            "Grid/Outer radius": 7,
+            "Grid/Bottom": -5,
+            "Grid/Top": 3.5,
             "Rigid body/Ramp time": 0.1,
             "Time/End penetration": 0.06,
             "Output/Frame interval": "never",
