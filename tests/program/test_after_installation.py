@@ -174,6 +174,7 @@ class Export(ProgramTest):
         run = self.directory("run")
         entries = {
             **SHORT,
+            **COARSE,
             END: 0.8,
             "Rigid body/Submerged weight": 2e5,
         }

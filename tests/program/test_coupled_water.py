@@ -268,7 +268,7 @@ class TightLayer(ProgramTest):
     def entries(self, thickness: float, modulus: float) -> Entries:
         """Return those of a run until the flow is steady. modulus: Young's, Pa"""
         c_v = self.PERMEABILITY * 1.346 * modulus / 9810
-        end = 1.6 * thickness**2 / c_v
+        end = 1.1 * thickness**2 / c_v
         result: Entries = {
             "Soil/Number of layers": 3,
             "Soil/Layer 2/Top depth": self.SAND,

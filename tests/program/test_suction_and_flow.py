@@ -138,7 +138,7 @@ class Suction(ProgramTest):
                 "Material points/Per direction far": 2,
                 "Time/Inertia tolerance": "none",
                 "Time/Mass scaling": 100,
-                "Time/End penetration": 2.3,
+                "Time/End penetration": 1.8,
                 "Output/Frame interval": "never",
             },
         )

@@ -244,6 +244,10 @@ class Surface(ProgramTest):
             path,
             entries={
                 "Rigid body/Wall thickness": 0.25,
+                "Rigid body/Skirt length": 4,
+                "Grid/Outer radius": 9,
+                "Grid/Bottom": -9,
+                "Grid/Top": 5,
                 "Grid/Refinement levels": 0,
                 "Grid/Moving zone below tip": 2,
                 "Material points/Per direction near": 2,
