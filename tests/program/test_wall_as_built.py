@@ -20,6 +20,7 @@ CLAY: Entries = {
     "Soil/Layer 1/Cohesion": 20e3,
     "Soil/Layer 1/Youngs modulus": 8e6,
     "Soil/Layer 1/Poisson ratio": 0.49,
+    "Time/Mass scaling": 100,
     "Time/End penetration": 1.2,
 }
 FORCES = ("tip", "inner_friction", "outer_friction", "top", "lid", "ring")
