@@ -23,8 +23,8 @@ SHORT = ["--set", "Time/End time=0.05", "--set", "Verification/Checks="]
 STUDY = """kind = "parameters"
 title = "Two friction angles"
 scene = "jack_coarse.prm"
-depths = [0.55]
-set = {"Time/End penetration" = 0.6, "Time/Inertia tolerance" = 2}
+depths = [0.53]
+set = {"Time/End penetration" = 0.56, "Time/Inertia tolerance" = 2}
 [parameters."Soil/Layer 1/Friction angle"]
 values = [31, 33]
 """

@@ -5,6 +5,7 @@ import html
 import os
 import signal
 import subprocess
+import sys
 import time
 import unittest
 from pathlib import Path
@@ -19,6 +20,16 @@ from caisson.runner import Run as Call, set_options
 SHORT = ["--set", "Time/End penetration=0.52"]
 
 
+# the command line as a user calls it, but without pictures
+WITHOUT_PICTURES = """
+import sys
+from unittest import mock
+from caisson.__main__ import main
+with mock.patch("caisson.commands.run.draw"):
+    sys.exit(main(sys.argv[1:]))
+"""
+
+
 def draw_in_full(directory: Path, error_bar: Path | None, in_full: bool = True) -> None:
     """Draw the best run of a band, and not the two beside it."""
     if in_full:
@@ -28,15 +39,24 @@ def draw_in_full(directory: Path, error_bar: Path | None, in_full: bool = True) 
 class Run(ProgramTest):
     """What scripts/run does after the build."""
 
-    def start_run(self, *words: Any) -> "subprocess.Popen[str]":
+    def start_run(self, *words: Any, draws: bool = True) -> "subprocess.Popen[str]":
         """Start it in a process group of its own, as a terminal does."""
+        python = [sys.executable, "-B", "-c", WITHOUT_PICTURES]
         return subprocess.Popen(
-            [str(HERE.parent / "scripts/caisson"), "run", *map(str, words)],
+            [
+                *([str(HERE.parent / "scripts/caisson")] if draws else python),
+                "run",
+                *map(str, words),
+            ],
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             start_new_session=True,
-            env={**os.environ, "CAISSON_MPM_PROGRAM": str(self.program)},
+            env={
+                **os.environ,
+                "CAISSON_MPM_PROGRAM": str(self.program),
+                "PYTHONPATH": str(HERE.parent / "python"),
+            },
         )
 
     def run_scene_and_draw(self, status: int, *words: Any) -> str:
@@ -51,6 +71,13 @@ class Run(ProgramTest):
         done = caisson("run", *words)
         text = done.stdout + done.stderr
         self.assertEqual(done.returncode, status, text)
+        return text
+
+    def run_without_pictures(self, status: int, *words: Any) -> str:
+        """Run to the end, ask for this status, and return its words."""
+        process = self.start_run(*words, draws=False)
+        text = process.communicate()[0]
+        self.assertEqual(process.returncode, status, text)
         return text
 
     def assert_drawn(self, path: Path) -> None:
@@ -83,7 +110,7 @@ class Run(ProgramTest):
         path = self.directory()
         words = ["--ranks", 2, scene("jack"), "--output-directory", path]
         words += ["--set", "Run control/Wall time limit=0.01"]
-        text = self.run_scene_and_draw(STOPPED, *words)
+        text = self.run_without_pictures(STOPPED, *words)
         self.assertIn("stopped: wall time limit", text)
         version = subprocess.run(
             ["mpirun", "--version"], capture_output=True, text=True
@@ -148,7 +175,7 @@ class Run(ProgramTest):
         park do: those of the same entries that have not ended."""
         best = self.band()
         slow: dict[str, float] = {"Time/Courant number": 1e-3}
-        process = self.start_run("--band", best, *set_options(slow))
+        process = self.start_run("--band", best, *set_options(slow), draws=False)
         left = {best.parent / f"own{end}" for end in ("", "_low", "_high")}
         while left and process.poll() is None:  # one after the other on few cores
             for path in {path for path in left if (path / "history.csv").exists()}:
