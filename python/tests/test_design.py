@@ -78,17 +78,17 @@ class BearingCapacity(unittest.TestCase):
         self.assertAlmostEqual(smooth[0], 2 + np.pi, places=4)
         self.assertAlmostEqual((smooth[1] - smooth[0]) / 0.01, 2.0, delta=0.03)
         self.assertLess(smooth[2], self.gradient(2.0, rough=True))
-        self.assertAlmostEqual(smooth[2], self.gradient(2.0, False, 40), delta=0.01)
+        self.assertAlmostEqual(smooth[2], self.gradient(2.0, False, 20), delta=0.01)
 
     @staticmethod
-    def gradient(k: float, rough: bool, lines: int = 80) -> float:
+    def gradient(k: float, rough: bool, lines: int = 40) -> float:
         """Return the pressure on a strip on clay of the strength 1 + k z."""
         footing = Footing(0.0, False, rough, cohesion=1.0, gradient=k)
         return converged(footing, lines)
 
     def test_surcharge(self) -> None:
         for (circular, rough), exact in NQ.items():
-            found = factors(Footing(30, circular, rough), 60, False)
+            found = factors(Footing(30, circular, rough), 40, False)
             np.testing.assert_allclose(found["Nq"], exact, rtol=2e-4)
             np.testing.assert_allclose(found["Nc"], (exact - 1) * np.sqrt(3), rtol=2e-4)
 
@@ -99,12 +99,12 @@ class BearingCapacity(unittest.TestCase):
             np.testing.assert_allclose(pressure(footing, 20), exact, rtol=1e-9)
 
     def test_weight(self) -> None:
-        for rough, lines in ((False, 120), (True, 40)):
+        for rough, lines in ((False, 60), (True, 40)):
             heavy = Footing(30, False, rough, surcharge=1e-6, weight=1)
             np.testing.assert_allclose(
                 converged(heavy, lines),
                 NGAMMA[rough],
-                rtol=1e-3 if lines > 40 else 3e-3,
+                rtol=3e-3 if rough else 1e-3,
             )
 
     def test_order_of_the_differences(self) -> None:
@@ -185,15 +185,15 @@ class TipOfAWall(unittest.TestCase):
     def test_weight_of_one_side(self) -> None:
         """Nets converge with the second order, and each side's weight counts."""
         tip = wall_tip.flowing(30, 5, 0.5)
-        loads = [wall_tip.tip_pressure(tip, n) for n in (20, 40, 80)]
+        loads = [wall_tip.tip_pressure(tip, n) for n in (10, 20, 40)]
         self.assertAlmostEqual(
             (loads[0] - loads[1]) / (loads[1] - loads[2]), 4, delta=1
         )
         light = Tip(30, Side(tip.outer.surcharge), Side(tip.inner.surcharge))
         inner = Tip(30, light.outer, tip.inner)
-        found = [wall_tip.tip_pressure(x, 20) for x in (light, inner, tip)]
+        found = [wall_tip.tip_pressure(x, 20) for x in (light, inner)]
         self.assertLess(found[0], found[1])
-        self.assertLess(found[1], found[2])
+        self.assertLess(found[1], loads[1])
 
     def test_wedge(self) -> None:
         """The faces of the wedge of Prandtl are those of a rough wedge of steel; the
