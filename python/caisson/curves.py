@@ -88,20 +88,22 @@ def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.
     half = window_of(x[-1] - x[0]) / 2
     at = np.clip(at, x[0], x[-1])
     centers = np.clip(at, x[0] + half, x[-1] - half)
-    return np.array([mean_at(x, y, *pair, half) for pair in zip(at, centers)])
+    first = np.searchsorted(x, centers - half - EDGE)
+    last = np.searchsorted(x, centers + half + EDGE, "right")
+    found: np.ndarray = np.interp(at, x, y)
+    for i in np.flatnonzero(last - first >= 3):
+        rows = slice(first[i], last[i])
+        found[i] = mean_at(x[rows], y[rows], at[i], centers[i])
+    return found
 
 
-def mean_at(
-    x: np.ndarray, y: np.ndarray, at: float, center: float, half: float
-) -> float:
-    """Return the mean of smoothed_at() at one position, by the window about center."""
-    near = in_window(x, center, 2 * half)
-    if near.sum() < 3:
-        return float(np.interp(at, x, y))
-    x, y = x[near], y[near]
-    mean, distance = float(y.mean()), x - x.mean()
+def mean_at(x: np.ndarray, y: np.ndarray, at: float, center: float) -> float:
+    """Return the mean of smoothed_at() at one position, by rows in the window about a
+    center."""
+    mean = float(y.sum() / len(y))
     if abs(at - center) < EDGE:
         return mean
+    distance = x - x.mean()
     slope = distance @ y / (distance @ distance)
     return float(mean + slope * (at - x.mean()))
 
