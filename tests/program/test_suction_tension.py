@@ -158,6 +158,7 @@ class SealedLid(ProgramTest):
         the strength of a pile that is pushed as far, to the same depth: less the
         stress of rest, the same with the other sign."""
         path, pile = self.directory("caisson"), self.directory("pile")
+        faster: Entries = {"Time/Mass scaling": 100}
         entries: Entries = {
             **SEALED,
             **CLAY,
@@ -167,6 +168,7 @@ class SealedLid(ProgramTest):
             "Rigid body/Friction angle of the inner wall": 0,
             "Rigid body/Adhesion of the inner wall": STRENGTH,
             "Rigid body/Velocity": -0.02,
+            **faster,
         }
         self.run_scene("jack", path, entries=entries)
         most = outcome.results_of(Results(path))["largest_pull"]
@@ -176,7 +178,7 @@ class SealedLid(ProgramTest):
             self.pile_scene(),
             "--output-directory",
             pile,
-            entries={**CLAY, "Rigid body/Velocity": 0.02},
+            entries={**CLAY, **faster, "Rigid body/Velocity": 0.02},
         )
         rows = history(path)
         self.assert_balanced(rows)
