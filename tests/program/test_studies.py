@@ -6,9 +6,11 @@ import re
 import subprocess
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from program import HERE, ProgramTest, caisson, scene, user_scene
 
+from caisson import disk
 from caisson.runner import read_parameters
 from caisson.study_command import module_of
 from lab.study import Options
@@ -114,6 +116,8 @@ class Parameters(ProgramTest):
     def test_angles(self) -> None:
         """The base is the scene's; a stronger soil and rougher walls resist more; a
         value that is added later costs one run."""
+        of_users = mock.patch.object(disk.save, "__defaults__", (150,))  # dpi
+        self.enterContext(of_users)
         path = self.made_directory()
         done = self.study(path, "26")
         self.assertEqual(done.returncode, 0, done.stdout)
