@@ -15,7 +15,7 @@ import numpy as np
 from synthetic import write_columns, write_run
 
 from caisson.evaluation import GRADIENT, HEAVE, rest_of_run
-from caisson.report import before, low_and_high, methods, page, remedies, verdict
+from caisson.report import before, low_and_high, methods, page, verdict
 from caisson.results import Results, ResultsError
 from caisson.runner import FAILS
 from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
@@ -432,47 +432,6 @@ class Layered(Scene):
         run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
         self.assertIn(words, self.text(run))
         self.assertNotIn(words, self.text(self.scene(CLAY)))
-
-
-class ThinLayer(Scene):
-    """0.3 m of sand of 30 MPa in clay, between two rows of the tables."""
-
-    def of_weight(self, weight: float) -> by_hand.ByHand:
-        """Return it under a weight (N)."""
-        tops = {**SAND, "top_depth_m": 4.1}, {**CLAY, "top_depth_m": 4.4}
-        run = self.scene(CLAY, *tops, weight=weight)
-        rows = "depth_m,qc_MPa\n0,1\n4.05,1\n4.1,30\n4.4,30\n4.45,1\n20,1\n"
-        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
-        return run
-
-    def test_end_and_weight(self) -> None:
-        """The caisson ends at its top, far above what suction allows. The weight that
-        would help is by arithmetic: with 2 % more it goes in, and with 2 % less it
-        does not, by the methods themselves."""
-        run = self.of_weight(2e6)
-        found, end = outcome.whole_way(run), outcome.end_of(run)
-        assert found is not None and end is not None
-        self.assertEqual(end[0], 4.1)
-        self.assertGreater(found.share.max(), 1.5)
-        planned = remedies.planned_of(run, verdict.feasible_part(run, found, 4.1), END)
-        assert not isinstance(planned, str)
-        weight = remedies.weight_of(planned)
-        assert weight is not None
-        self.assertIsNone(outcome.end_of(self.of_weight(1.02e3 * weight)))
-        self.assertIsNotNone(outcome.end_of(self.of_weight(0.98e3 * weight)))
-
-    def test_sand_under_less_suction(self) -> None:
-        """Where more weight takes less suction, this relieves less, too."""
-        run = self.scene(SAND, weight=0.5e6)
-        found, end = outcome.whole_way(run), outcome.end_of(run)
-        assert found is not None and end is not None
-        part = verdict.feasible_part(run, found, end[0])
-        planned = remedies.planned_of(run, part, END)
-        assert not isinstance(planned, str)
-        weight = remedies.weight_of(planned)
-        assert weight is not None
-        self.assertIsNone(outcome.end_of(self.scene(SAND, weight=1.02e3 * weight)))
-        self.assertIsNotNone(outcome.end_of(self.scene(SAND, weight=0.98e3 * weight)))
 
 
 class Page(Scene):

@@ -6,13 +6,14 @@ from math import nan
 from typing import Any
 
 import numpy as np
+from test_by_hand import CLAY, END, SAND, Scene
 from test_report import leave_run, SCENE, SUMMARY, WithPage
 
 import caisson.report as report
 from caisson.design import reasons
 from caisson.design.method import Forces
 from caisson.design.reasons import Compared
-from caisson.verdict import limits
+from caisson.verdict import by_hand, limits, outcome
 from caisson.report import remedies, verdict
 from caisson.verdict import installation
 from caisson.report.remedies import Planned, Sizes
@@ -143,6 +144,47 @@ class Remedies(WithPage):
         self.assertTrue(remedies.is_enough(planned, "wall", 0.027))
         self.assertFalse(remedies.is_enough(planned, "wall", 0.026))
         self.assertIn("no pump alone: wall buckles", rows["pump"])
+
+
+class ThinLayer(Scene):
+    """0.3 m of sand of 30 MPa in clay, between two rows of the tables."""
+
+    def of_weight(self, weight: float) -> by_hand.ByHand:
+        """Return it under a weight (N)."""
+        tops = {**SAND, "top_depth_m": 4.1}, {**CLAY, "top_depth_m": 4.4}
+        run = self.scene(CLAY, *tops, weight=weight)
+        rows = "depth_m,qc_MPa\n0,1\n4.05,1\n4.1,30\n4.4,30\n4.45,1\n20,1\n"
+        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
+        return run
+
+    def test_end_and_weight(self) -> None:
+        """The caisson ends at its top, far above what suction allows. The weight that
+        would help is by arithmetic: with 2 % more it goes in, and with 2 % less it
+        does not, by the methods themselves."""
+        run = self.of_weight(2e6)
+        found, end = outcome.whole_way(run), outcome.end_of(run)
+        assert found is not None and end is not None
+        self.assertEqual(end[0], 4.1)
+        self.assertGreater(found.share.max(), 1.5)
+        planned = remedies.planned_of(run, verdict.feasible_part(run, found, 4.1), END)
+        assert not isinstance(planned, str)
+        weight = remedies.weight_of(planned)
+        assert weight is not None
+        self.assertIsNone(outcome.end_of(self.of_weight(1.02e3 * weight)))
+        self.assertIsNotNone(outcome.end_of(self.of_weight(0.98e3 * weight)))
+
+    def test_sand_under_less_suction(self) -> None:
+        """Where more weight takes less suction, this relieves less, too."""
+        run = self.scene(SAND, weight=0.5e6)
+        found, end = outcome.whole_way(run), outcome.end_of(run)
+        assert found is not None and end is not None
+        part = verdict.feasible_part(run, found, end[0])
+        planned = remedies.planned_of(run, part, END)
+        assert not isinstance(planned, str)
+        weight = remedies.weight_of(planned)
+        assert weight is not None
+        self.assertIsNone(outcome.end_of(self.scene(SAND, weight=1.02e3 * weight)))
+        self.assertIsNotNone(outcome.end_of(self.scene(SAND, weight=0.98e3 * weight)))
 
 
 RUN = Forces(900e3, 50e3, 150e3)
