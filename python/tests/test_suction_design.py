@@ -247,6 +247,20 @@ class HoulsbyByrne(unittest.TestCase):
         self.assertAlmostEqual(piping_suction(body, 2), houlsby_byrne(10e3, 2, DO))
         self.assertAlmostEqual(piping_suction(body, 3), houlsby_byrne(8e3, 3, DO))
 
+    def test_piping_above_silt(self) -> None:
+        """2 m of sand, 1 m of silt with a hundredth of its permeability and 3 m of
+        sand: 102 of 105 parts of the head are lost above the base of the silt at 3 m,
+        where 30 kPa lie above; at h / D = 1 this is 30 * 105 / 102 / (1 - a). Where
+        all have one permeability, or one is not known, it is 60 kPa / (1 - a)."""
+        a = 0.45 - 0.36 * (1 - exp(-1 / 0.48))
+        for silt, kilopascals in ((1e-6, 30.88235), (1e-4, 60), (0, 60)):
+            layers = [
+                Layer(top, 10e3, 30, K, permeability=k)
+                for top, k in ((0, 1e-4), (2, silt), (3, 1e-4))
+            ]
+            found = piping_suction(caisson(False, layers), 6)
+            self.assertAlmostEqual(found / 1e3, kilopascals / (1 - a), places=4)
+
 
 class SendersRandolph(unittest.TestCase):
     """Required suction with inner friction and tip in proportion to 1 - s / s_cr."""

@@ -73,6 +73,7 @@ class Layer:
     friction_angle: float
     lateral_stress_ratio: float  # K of undisturbed ground
     wall_friction_angle: float | None = None  # None: that of the wall
+    permeability: float = 0.0  # m/s; 0: not known
 
     def weight_under(self, added: float) -> float:
         """Return the unit weight with what flow adds to it, but not below 0."""

@@ -19,8 +19,10 @@ suction changes these forces:
 The formulas are those of one unit weight. With several layers the gradient is the
 same in all of them, and s_cr follows from the mean unit weight down to the tip.
 Houlsby and Byrne's limit is then reached, on the safe side, when the lightest layer
-down to the tip has no weight left inside. The pressure of the water on the end of
-the wall is left out.
+down to the tip has no weight left inside; or, if that is earlier, when the water lifts
+all layers above the base of one: the head that is lost inside is shared among the
+layers as d / k by their thickness d and permeability k. The forces take one
+permeability. The pressure of the water on the end of the wall is left out.
 
 Through clay hardly any water flows, so that suction leaves the forces as they are.
 
@@ -105,10 +107,20 @@ def seepage(
 def piping_suction(
     caisson: Caisson, h: float, permeability_ratio: float = 1.0
 ) -> float:
-    """Return the suction at which a layer inside has lost its weight, beyond which
-    the equations of Houlsby and Byrne do not hold."""
-    lightest = min((layer.unit_weight for layer, _ in caisson.pieces(h)), default=0.0)
-    return houlsby_byrne(lightest, h, caisson.outer_diameter, permeability_ratio)
+    """Return the suction at which a layer inside has lost its weight, or the water
+    lifts those above the base of one, beyond which the equations of Houlsby and Byrne
+    do not hold."""
+    if not (pieces := caisson.pieces(h)):
+        return 0.0
+    rows = [(layer.unit_weight, d, layer.permeability) for layer, d in pieces]
+    unit_weights, thicknesses, permeabilities = np.array(rows).T
+    if not permeabilities.all():  # as if it were one
+        permeabilities = np.ones(len(rows))
+    weight = np.cumsum(unit_weights * thicknesses)
+    loss = np.cumsum(thicknesses / permeabilities)
+    lifted = weight * loss[-1] / (loss * h)  # as a unit weight
+    least = float(min(unit_weights.min(), lifted.min()))
+    return houlsby_byrne(least, h, caisson.outer_diameter, permeability_ratio)
 
 
 def required_suction(

@@ -132,6 +132,7 @@ def layer_of(entry: Scene, number: int) -> Layer:
         friction_angle=float(entry["friction_angle_deg"]),
         lateral_stress_ratio=float(entry["K0"]),
         wall_friction_angle=entry.get("wall_friction_angle_deg"),
+        permeability=float(entry.get("permeability_m_s") or 0),
     )
 
 
