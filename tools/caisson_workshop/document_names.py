@@ -29,7 +29,7 @@ SUFFIXES = {".h", ".cc", ".py", ".prm", ".toml", ".txt", ""}
 NOT_WRAPPED = r"```.*?```|\$\$.*?\$\$|<!-- speed: begin.*speed: end -->"
 STATED_DEFAULT = re.compile(r"`([^`/]+/[^`]+)`\s+is\s+`?([^`\s]+)`?\s+by\s+default")
 GLOSSARY = "glossary.md"
-MOST_WORDS = 56_150  # of all pages but the generated one
+MOST_WORDS = 56_200  # of all pages but the generated one
 MOST_WORDS_OF_MANUAL = 42_000  # of README.md and doc/
 BRITISH = re.compile(
     r"\b(metres?|neighbours?\w*|centres?|centred|colour\w*|behaviour|modell(?:ed|ing)"
