@@ -300,6 +300,20 @@ class Run:
         keys = {"key", "entries", "status", "wall_s", "cpu_s"}
         return found if keys <= set(found) else self.record_of_user()
 
+    def is_of_another_scene(self) -> bool:
+        """Return whether an entry in effect has another value in run.json there: the
+        scene has changed since."""
+        summary = self.left("run.json")
+        known = {**summary.get("defaults", {}), **summary.get("entries", {})}
+        try:
+            common = (known.keys() & self.in_effect.keys()) - {
+                *self.BESIDE,
+                self.BEFORE,
+            }
+        except RunError:
+            return bool(known)
+        return any(known[name] != self.in_effect[name] for name in common)
+
     def record_of_user(self) -> dict[str, Any] | None:
         """Return the record of a finished run of these entries that the user has called
         himself, with this program; None where there is none."""

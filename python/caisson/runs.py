@@ -103,6 +103,8 @@ class StudyRun:
             return "no result", self.trouble or self.last_words
         if record.get("entries") != self.run.entry_texts():
             return "out of date", "the entries of the study have changed since"
+        if self.run.is_of_another_scene():
+            return "out of date", "the scene has changed since"
         if record["status"] != Status.SUCCESS:
             return FAILED, self.last_words
         return COMPLETE, ""

@@ -17,10 +17,9 @@ from program import (
     flip_a_bit,
     history,
     scene,
+    scene_and_entries,
     summary,
 )
-
-from caisson.runner import read_parameters
 
 SAME = """material_points body_points cells steps held_back_count limiter_count
     points_split points_merged""".split()
@@ -117,7 +116,7 @@ class OtherScenes(ProgramTest):
         """Checks have the same numbers; one that fails is a failure."""
         paths = [self.directory(f"verify_{n}") for n in (1, 2)]
         name, wrong = "Verification/Checks", "final half : -4 : 0.03"
-        given = read_parameters([scene("wave_series")])[name]
+        given = scene_and_entries("wave_series")[1][name]
         self.run_scene("wave_series", paths[0])
         more: Entries = {name: f"{given}; {wrong}"}
         self.run_scene("wave_series", paths[1], FAILURE, entries=more, ranks=2)

@@ -125,7 +125,8 @@ class Park(CommandTest):
 
     @mock.patch("caisson.plot.draw")  # which another test looks at
     def test_parts(self, drawn: mock.Mock) -> None:
-        """Each job of an array makes its runs; the overview names what is missing."""
+        """Each job of an array makes its runs; the overview names what is missing, and
+        what a row that has changed since does not stand for."""
         self.write(*(ROW.format(name, 20) for name in ("A", "B")))
         self.caisson(*self.words_of("--part", "1/2"))
         self.assertEqual(len(self.calls()), 1)
@@ -137,6 +138,10 @@ class Park(CommandTest):
         self.caisson(*self.words_of("--part", "2/2"))
         self.caisson(*self.words_of("--evaluate"))
         self.assertEqual(self.calls(), ["A", "B"])
+        text = '{"entries": {"Soil/Stiffness": "4e6"}}'  # of the row before a change
+        self.record("A").with_name("run.json").write_text(text, encoding="utf-8")
+        self.caisson(*self.words_of("--evaluate"), status=1)
+        self.assertIn("out of date", self.overview()["A"]["verdict"])
 
     def test_rows_that_are_wrong(self) -> None:
         """Each is named in a line, with its column, and nothing is written or run."""
