@@ -248,8 +248,8 @@ namespace CaissonMPM
     if (scene.body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its "
              "skirt";
-    // soil may rest on the lid, and leave it again
-    if (is_sealed() || scene.body.motion().velocity() < 0.)
+    // soil may rest on the lid, and leave it again; a way up begins at rest
+    if (is_sealed() || scene.body.motion().velocity() <= 0.)
       return "";
     // soil that has been piping or lifted is no plug that refuses
     const std::string refusal = feasibility.place() ? "" : " (refusal)";

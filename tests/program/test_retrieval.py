@@ -100,6 +100,14 @@ class Retrieval(ProgramTest):
             "From 2 m to 1.8 m, retrieval takes an overpressure", known["verdict"]
         )
 
+    def test_plug_at_the_lid(self) -> None:
+        """A plug that fills the caisson stops its way down, and not its way up."""
+        entries: Entries = {**CLAY, "Water/Level": "drained"}
+        entries |= {"Rigid body/Skirt length": DEPTH, "Time/End penetration": 1.97}
+        path = self.directory("lid")
+        self.run_scene("suction", path, entries={**RISES, **entries})
+        self.assertAlmostEqual(history(path)[-1]["penetration_m"], 1.97, delta=0.01)
+
     def test_set_up(self) -> None:
         """Twice the friction: the required overpressure grows by it over the area."""
         path = self.directory("set_up")
