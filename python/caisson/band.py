@@ -19,6 +19,7 @@ def member_of(best: Path, estimate: str) -> Path:
     """Return the scene, or the directory of results, of an estimate."""
     if estimate == BEST:
         return best
+    best = best if best.name.strip(".") else best.resolve()  # not "." or ".."
     name = best.name.removesuffix(SCENE)
     stem, ending = name.removesuffix(f"_{BEST}"), best.name[len(name) :]
     return best.with_name(f"{stem}_{estimate}{ending}")

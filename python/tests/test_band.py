@@ -41,6 +41,11 @@ class Estimates(unittest.TestCase):
         low_and_high.check(options)
         return low_and_high.of_texts(texts, KNOWN, "density", options)
 
+    def test_current_folder(self) -> None:
+        """It has no name of its own."""
+        here = Path.cwd()
+        self.assertEqual(member_of(Path("."), LOW), here.with_name(f"{here.name}_low"))
+
     def test_only_what_differs(self) -> None:
         """The rest, also of other layers, is that of the best estimate; what is
         assumed follows."""

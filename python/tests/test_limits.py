@@ -158,6 +158,14 @@ class Governing(WithPage):
         words = "plug meets the lid, factor 3"
         self.check(run, limits.LID, 4 / 1.15, words)
 
+    def test_without_run_json(self) -> None:
+        """No reason is made up for what is not known."""
+        run = self.run_of()
+        (self.path / "run.json").unlink()
+        found = limits.absent_of(Results(self.path), {})
+        self.assertEqual(found, ["limits: not known without run.json"])
+        self.assertGreater(len(limits.absent_of(run, {})), 3)
+
     def test_around_tops(self) -> None:
         """A row at each top of a layer on the way, and one just below; none beyond."""
         tops = [{**SAND, "top_depth_m": top} for top in (0, 2.2, 5)]

@@ -4,14 +4,15 @@
 A remedy has to do at all depths down to the planned one. The required suction and the
 limits of the run go on by straight lines, as over the last meter or quarter of what is
 feasible; piping and the plug of clay have the numbers of their methods. Tip and walls
-keep their shares of the resistance, of which less suction takes less. With another wall
-or diameter the stress on them stays, on their new areas, the methods and the check of
-the wall have the new sizes, and the weight changes by the steel of the skirt. Where no
-size suffices, the depth stands there that one of TRIED would reach.
+keep their shares of the resistance; what water that flows takes from it in a run is not
+known under another suction. With another wall or diameter the stress on them stays, on
+their new areas, the methods and the check of the wall have the new sizes, and the
+weight changes by the steel of the skirt. Where no size suffices, the depth stands there
+that one of TRIED would reach.
 """
 import functools
 from collections.abc import Callable
-from math import inf, pi
+from math import ceil, floor, inf, log10, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -33,10 +34,13 @@ STEEL_WEIGHT = (7850 - 1025) * GRAVITY / 1e3  # kN/m3, in water
 THINNEST, THICKEST, WIDEST = 0.25, 2.0, 2.0  # of the wall, and of the diameter
 TRIED = 0.8, 1.2  # of the wall, and of the diameter
 STEPS = 0.001, 0.25  # m, of the wall and of the diameter
-LEAST_LEFT = 0.2  # of tip and inner friction, under the suction of a run
 ROOM = 0.01  # of the diameter, that a shorter skirt leaves above the plug
 SENTENCES = Path(__file__).with_name("remedies.jinja")
 NOT_KNOWN = "not known: another layer begins above the planned depth"
+RELIEVED = (
+    "not known: less suction leaves more of tip and inner friction, by an amount that"
+    " only another run shows"
+)
 
 
 class Sizes(NamedTuple):
@@ -77,8 +81,8 @@ class Planned:
         self.required = self.value(lambda x: x.required)
         self.expected = self.value(lambda x: x.expected)
         self.by_methods = functools.cache(self._by_methods)
-        critical, self.piping, _ = self.by_methods(*self.sizes[:2])
-        self.forces = self._jacking(critical)
+        self.critical, self.piping, _ = self.by_methods(*self.sizes[:2])
+        self.forces = self._jacking()
         wall = limits.wall_of(run)
         self.pressures = shell.pressures_of(run, wall) if wall else {}
 
@@ -104,10 +108,9 @@ class Planned:
         within = self.at <= depth[-1]
         return np.where(within, np.interp(self.at, depth, values), below)
 
-    def _jacking(self, critical: np.ndarray) -> list[np.ndarray]:
-        """Return the forces on tip, inner and outer wall without suction. Below a run,
-        they keep their shares; suction has taken from tip and inner wall as much as
-        suction_of() says. critical: the suction that takes all of it."""
+    def _jacking(self) -> list[np.ndarray]:
+        """Return the forces on tip, inner and outer wall without suction; below a run,
+        they keep their shares."""
         names = list(self.found.forces)[:3]
         if self.there is not None:
             return [self.there.forces[name] for name in names]
@@ -115,11 +118,14 @@ class Planned:
         parts = [np.interp(self.at, depth, self.found.forces[x]) for x in names]
         total = self.required * self.sizes.area + self.sizes.weight
         scale = np.where(self.required > NOTHING, total / sum(parts), 1.0)
-        left = np.ones(len(self.at))
-        flows = np.isfinite(critical) & (critical > 0)
-        left[flows] -= self.required[flows] / critical[flows]
-        shares = scale / np.clip(left, LEAST_LEFT, 1.0)
-        return [parts[0] * shares, parts[1] * shares, parts[2] * scale]
+        return [part * scale for part in parts]
+
+    @property
+    def is_relieved(self) -> bool:
+        """Whether flow takes from the forces of a run, which more weight or another
+        size would change by what only another run shows."""
+        counts = self.required > LITTLE * self.required.max()
+        return self.there is None and bool(np.isfinite(self.critical[counts]).any())
 
     def _by_methods(
         self, diameter: float, wall: float
@@ -224,6 +230,12 @@ def reach(planned: Planned, name: str, size: float) -> float:
     return bisect(is_beyond, float(found.depth[-1]), planned.depth, 12)[0]
 
 
+def rounded_up(value: float) -> float:
+    """Return a number above 0 with two digits, and not less."""
+    step = 10.0 ** (floor(log10(value)) - 1)
+    return float(ceil(value / step - 1e-6) * step)
+
+
 def weight_of(planned: Planned) -> float | None:
     """Return the weight (kN) that suffices; None where none does, as the wall buckles
     under it, or the plug meets the lid."""
@@ -232,7 +244,9 @@ def weight_of(planned: Planned) -> float | None:
     def suffices(weight: float) -> bool:
         return planned.suffices(sizes._replace(weight=weight))
 
-    return bisect(suffices, sizes.weight, whole, 30)[1] if suffices(whole) else None
+    if not suffices(whole):
+        return None
+    return rounded_up(bisect(suffices, sizes.weight, whole, 30)[1])
 
 
 class Size(NamedTuple):
@@ -277,7 +291,7 @@ def pump_of(planned: Planned) -> Pump | None:
         shares = {k: np.nan_to_num(planned.required / x) for k, x in others.items()}
     name = max(shares, key=lambda x: float(shares[x].max()), default="")
     if not name or shares[name].max() < 1:
-        most = float(planned.required.max())
+        most = rounded_up(float(planned.required.max()))
         return Pump(most, float(pump)) if pump < inf else None
     i = int(shares[name].argmax())
     needed, least = float(planned.required[i]), float(others[name][i])
@@ -308,6 +322,8 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
         return "too few numbers above"
     if run.by_hand:
         return planned
+    if planned.is_relieved:
+        return RELIEVED
     above = found.depth[planned.rows][0]
     tops = [layer.get("top_depth_m", 0) for layer in scene.get("layers", [])]
     return NOT_KNOWN if any(above < top < target for top in tops) else planned
@@ -316,7 +332,7 @@ def planned_of(run: Results, found: Installation, target: float) -> Planned | st
 def sentence_of(run: Results, found: Installation, target: float) -> str:
     """Return which weight, or pump, would be needed at a depth (m)."""
     planned = planned_of(run, found, target)
-    if planned == NOT_KNOWN:
+    if planned in (NOT_KNOWN, RELIEVED):
         return say(SENTENCES, "not_known", found.shown, target)
     if isinstance(planned, str) or (weight := weight_of(planned)) is None:
         return ""

@@ -108,6 +108,8 @@ def why_absent(run: Results, kind: str) -> str:
 
 def absent_of(run: Results, found: dict[str, np.ndarray]) -> list[str]:
     """Return the kinds of limits that found lacks, each with its reason."""
+    if not run.known:
+        return ["limits: not known without run.json"]
     known = {LIMITS[name].kind for name in found}
     kinds = dict.fromkeys(limit.kind for limit in LIMITS.values())
     return [f"{x}: {why_absent(run, x)}" for x in kinds if x not in known]
