@@ -248,15 +248,18 @@ namespace CaissonMPM
     if (scene.body.penetration() <= 0.)
       return "the caisson has left the soil, and water flows in below its "
              "skirt";
-    // soil may rest on the lid, and leave it again; a way up begins at rest
-    if (is_sealed() || scene.body.motion().velocity() <= 0.)
+    // soil may rest on the lid, and leave it again
+    const BodyMotion &motion = scene.body.motion();
+    if (is_sealed() || motion.velocity() < 0.)
       return "";
+    // at rest a way begins, and it may be one up
+    const bool begins = motion.velocity() == 0. && motion.usual_velocity() > 0.;
     // soil that has been piping or lifted is no plug that refuses
     const std::string refusal = feasibility.place() ? "" : " (refusal)";
-    if (touched >= full_lid)
+    if (!begins && touched >= full_lid)
       return "the plug fills the caisson: soil bears on " +
              percent(full_lid, 2) + " of the lid" + refusal;
-    if (soil_columns != nullptr &&
+    if (!begins && soil_columns != nullptr &&
         soil_columns->mean_height(SoilColumns::Side::plug) >= height_of_lid())
       return "the plug fills the caisson: it has reached the lid, or the top of "
              "the skirt where the mesh has no lid" +
