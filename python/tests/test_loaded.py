@@ -24,11 +24,8 @@ class Directory(unittest.TestCase):
     """A test with a copy of a run, which is in the current folder."""
 
     def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        here = contextlib.chdir(temporary.name)
-        here.__enter__()
-        self.addCleanup(here.__exit__)
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.enterContext(contextlib.chdir(folder))
         self.path = Path(shutil.copytree(HERE / "tiny_run", Path("run")))
         self.run_there = caisson.load("run")
 

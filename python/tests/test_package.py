@@ -274,11 +274,8 @@ class Completion(unittest.TestCase):
     """In a folder with a scene, a table and results."""
 
     def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        here = contextlib.chdir(temporary.name)
-        here.__enter__()
-        self.addCleanup(here.__exit__)
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.enterContext(contextlib.chdir(folder))
         for name in ("mine.prm", "mine.csv", "notes", "a b.prm"):
             Path(name).touch()
         Path("my_results/jack").mkdir(parents=True)

@@ -23,7 +23,7 @@ from caisson.design.suction_installation import bisect
 from caisson.units import GRAVITY
 from caisson.verdict import limits, outcome, suction_methods, theory
 from caisson.verdict.by_hand import suction_of
-from caisson.verdict.installation import LITTLE, NOTHING, Installation, Rate
+from caisson.verdict.installation import NOTHING, Installation, Rate, has_begun
 from caisson.verdict.installation import installation_of
 from caisson.results import Results
 from caisson.template import say, say_rows
@@ -124,8 +124,8 @@ class Planned:
     def is_relieved(self) -> bool:
         """Whether flow takes from the forces of a run, which more weight or another
         size would change by what only another run shows."""
-        counts = self.required > LITTLE * self.required.max()
-        return self.there is None and bool(np.isfinite(self.critical[counts]).any())
+        flows = np.isfinite(self.critical[has_begun(self.required)])
+        return self.there is None and bool(flows.any())
 
     def _by_methods(
         self, diameter: float, wall: float
@@ -191,8 +191,7 @@ class Planned:
         begins, as in Installation.share, and the plug below the lid."""
         least = np.min([np.full(len(self.at), inf), *self.allows(sizes).values()], 0)
         needed = self.needs(sizes)
-        counts = needed > LITTLE * needed.max()
-        return self.has_room(sizes) and bool((needed < least)[counts].all())
+        return self.has_room(sizes) and bool((needed < least)[has_begun(needed)].all())
 
     def steel(self, sizes: Sizes) -> float:
         """Return the weight (kN) with another skirt of steel."""
@@ -291,8 +290,8 @@ def pump_of(planned: Planned) -> Pump | None:
         shares = {k: np.nan_to_num(planned.required / x) for k, x in others.items()}
     name = max(shares, key=lambda x: float(shares[x].max()), default="")
     if not name or shares[name].max() < 1:
-        most = rounded_up(float(planned.required.max()))
-        return Pump(most, float(pump)) if pump < inf else None
+        most = float(planned.required.max())
+        return None if pump == inf else Pump(rounded_up(most), float(pump))
     i = int(shares[name].argmax())
     needed, least = float(planned.required[i]), float(others[name][i])
     return Pump(needed, least, planned.found.named(name))

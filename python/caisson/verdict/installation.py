@@ -41,6 +41,12 @@ def plug_area(scene: Mapping[str, Any]) -> float:
     return math.pi / 4 * inner**2
 
 
+def has_begun(required: np.ndarray) -> np.ndarray:
+    """Return where a required suction [n] (kPa) counts, [n]: where it begins, limits
+    that follow from it are ratios of small numbers."""
+    return np.asarray(required > max(NOTHING, LITTLE * float(required.max())))
+
+
 class Rate(NamedTuple):
     """The rate of penetration that the pump is made for."""
 
@@ -136,11 +142,9 @@ class Installation:
 
     @property
     def share(self) -> np.ndarray:
-        """The same [n], 0 where nothing bounds it, and where suction begins: there the
-        limits that follow from it are ratios of small numbers."""
+        """The same [n], 0 where nothing bounds it, and where suction begins."""
         known = np.nan_to_num(self.utilization, posinf=1e9)
-        least = max(NOTHING, LITTLE * float(self.required.max()))
-        return np.where(self.required > least, known, 0.0)
+        return np.where(has_begun(self.required), known, 0.0)
 
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""

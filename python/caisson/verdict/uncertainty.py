@@ -20,9 +20,8 @@ from caisson import evaluation
 from caisson.band import BEST
 from caisson.evaluation import DEPTH, SUCTION, TOTAL
 from caisson.results import Results
-from caisson.verdict.installation import LITTLE, NOTHING, Rate, bounds_of
-from caisson.verdict.installation import around_tops, error_asked_of
-from caisson.verdict.installation import installation_of, plug_area
+from caisson.verdict.installation import Rate, around_tops, bounds_of, error_asked_of
+from caisson.verdict.installation import has_begun, installation_of, plug_area
 from caisson.verdict.limits import rounded_down
 from caisson.verdict.outcome import feasible_to, reached
 
@@ -208,9 +207,7 @@ def end_of_upper(run: Results, members: Members) -> float | None:
     known = found and installation_of(run, Rate(), found.depth)
     if not found or not known or not known.limits:
         return None
-    # not where suction begins, as in the share of the allowable one
-    least = max(NOTHING, LITTLE * known.required.max())
-    needed = np.where(known.required > least, found.high / 1e3, 0.0)
+    needed = np.where(has_begun(known.required), found.high / 1e3, 0.0)
     end = reached(replace(known, required=needed), known.allowable)
     depth = rounded_down(end[0]) if end else np.inf
     return depth if depth < feasible_to(run) else None
