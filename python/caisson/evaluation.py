@@ -37,6 +37,7 @@ FRICTION_RISE = 5e-3  # m, which mobilizes friction
 # of the rise to the largest pull: how much further a capacity is followed, and the
 # part of it at which the pull is nearly reached
 FURTHER, BEFORE, NEARLY = 0.2, 0.7, 0.93
+ON_LID = 0.01  # of the resistance, from which on the lid bears on the soil
 LEAST_HELD = 0.02  # of all of the way, over which suction must act to count
 LITTLE = 0.1  # of a pull
 
@@ -179,6 +180,19 @@ def sinks_on(history: Table) -> list[tuple[float, float]]:
     suffices again: there the caisson sinks on by itself."""
     changes = [*changes_of_suction(history), float(history[DEPTH][-1])]
     return list(zip(changes[1::2], changes[2::2]))
+
+
+def lid_contact(history: Table) -> tuple[float, float] | None:
+    """Return the depth (m) from which on the lid bears on the soil on the way down, and
+    its force at the end (N); None where it does not."""
+    rows = curves.way_down(history[DEPTH])[1:]
+    if "lid_force_N" not in history or not len(rows):
+        return None
+    bears = history["lid_force_N"][rows] > ON_LID * history[TOTAL][rows]
+    if not bears[-1]:
+        return None
+    first = rows[np.flatnonzero([True, *~bears])[-1]]  # after the last that does not
+    return float(history[DEPTH][first]), float(history["lid_force_N"][rows[-1]])
 
 
 def pump_limit(run: Results) -> float | None:

@@ -4,7 +4,7 @@ import html
 import unittest
 from typing import Any
 
-from test_report import SUMMARY, WithPage, leave_run
+from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import phases
@@ -111,10 +111,10 @@ class Page(WithPage):
             part = phases.phases_in("retrieval to 5 m")
             phases.entries_of(part, self.path, COUPLED, "mine")
 
-    def leave_phase(self, name: str, title: str) -> None:
+    def leave_phase(self, name: str, title: str, **scene: Any) -> None:
         """Leave a phase that has ended, with its page."""
         path = self.path / name
-        leave_run(path, {**SUMMARY, "title": title})
+        leave_run(path, {**SUMMARY, "title": title, "scene": {**SCENE, **scene}})
         report.write(path)
 
     def test_rows(self) -> None:
@@ -123,11 +123,12 @@ class Page(WithPage):
         entries = {phases.ENTRY: "push, retrieval"}
         leave_run(self.path, {**SUMMARY, "entries": entries})
         title = str(SUMMARY["title"])
-        self.leave_phase("phase_2_push", f"{title}: push")
+        reason = "the plug fills the caisson (refusal)"
+        self.leave_phase("phase_2_push", f"{title}: push", end_reason=reason)
         self.leave_phase("phase_3_retrieval", f"{title}: rest 3 d; retrieval")
         push, retrieval = rows_of(Results(self.path))
         self.assertEqual(push.folder, "phase_2_push")
-        self.assertIn("Feasible to", push.said)
+        self.assertRegex(push.said, "^Feasible to .*Ended early: the plug fills .*l\\).$")
         self.assertEqual(retrieval.said, "not run yet: caisson run computes it")
         page = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
         self.assertTrue('<a href="phase_2_push/report.html">push</a>' in page)

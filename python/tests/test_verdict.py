@@ -6,6 +6,7 @@ import re
 import unittest
 from typing import Any
 
+import numpy as np
 from synthetic import write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
@@ -174,6 +175,19 @@ class Verdicts(WithPage):
         text = verdict.verdict_of(Results(self.path)).text
         parts = "tip 2.25 MN, friction inside 1.13 MN, outside 1.13 MN."
         self.assertEqual(text, f"Jacked to 4.5 m: 4.5 MN, of which {parts}")
+
+    def test_jacked_beyond_the_lid(self) -> None:
+        """The lid touches the soil once in passing, and bears on it from 4.2 m on."""
+        self.run_of()
+        self.change_history(suction_Pa=0, required_suction_Pa=0)
+        history = dict(Results(self.path).history)
+        depth = history["penetration_m"]
+        loads = np.where(depth > 4.195, 1e6, 0.0)
+        loads[np.argmin(abs(depth - 3.0))] = 1e6
+        write_columns(self.path / "history.csv", {**history, "lid_force_N": loads})
+        text = verdict.verdict_of(Results(self.path)).text
+        words = "The lid bears on the soil from 4.2 m on, with 1 MN at the end."
+        self.assertIn(words, text)
 
     def test_kept(self) -> None:
         """In a file of its own: run.json is that of the program, and what came out of

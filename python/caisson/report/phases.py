@@ -31,7 +31,11 @@ def said_of(run: Results, before: Results, is_rest: bool) -> str:
     if run.is_running or not run.is_finished:
         return say(SENTENCES, "of_phase", "")
     if not is_rest:
-        return say(SENTENCES, "of_phase", verdict.verdict_of(run).text or "finished")
+        text = verdict.verdict_of(run).text or "finished"
+        reason = str(run.scene.get("end_reason") or "")
+        if reason.partition(":")[0] not in text:
+            text = f"{text.rstrip('.')}. Ended early: {reason}."
+        return say(SENTENCES, "of_phase", text)
     ends = [[x.history.get(p, [0.0])[-1] for p in PRESSURES] for x in (before, run)]
     return say(SENTENCES, "rested", run.shown, *ends)
 

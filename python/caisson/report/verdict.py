@@ -88,7 +88,8 @@ def said_of(run: Results) -> Verdict:
         return Verdict("")
     if not len(found.required) or not run.weight:
         is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
-        return Verdict(say("pushed", found, "Jacked" if is_jacked else "Sunk"))
+        how = "Jacked" if is_jacked else "Sunk"
+        return Verdict(say("pushed", found, how, evaluation.lid_contact(run.history)))
     ended = outcome.end_of(run)
     if ended is None:
         return Verdict(of_suction(run, found, None))
