@@ -32,9 +32,10 @@ def environment(folder: Path, is_page: bool, **more: Any) -> jinja2.Environment:
     return found
 
 
+@functools.cache
 def template(path: Path, **filters: Callable[..., str]) -> jinja2.Template:
-    """Return a template. In a page, whose name has .html, no text is code; in other
-    files no text of a user, as the name of a file, ends a line."""
+    """Return a template, compiled once. In a page, whose name has .html, no text is
+    code; in other files no text of a user, as the name of a file, ends a line."""
     is_page = ".html" in path.name
     finalize = None if is_page else in_one_line
     found = environment(path.parent, is_page, finalize=finalize)
