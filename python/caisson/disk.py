@@ -42,6 +42,7 @@ DAMAGE = (
     *(ArithmeticError, AttributeError, LookupError, MemoryError),
     *(RecursionError, TypeError, ValueError, csv.Error),
 )
+DPI = 150  # of pictures
 MOST = 2**29  # bytes of a text: a device has no end
 EARLIER = re.compile(r"earlier_(\d{1,9})")  # as the program names them
 RECORD = ".caisson"  # lines of a checksum, a size and a name; and of an owner
@@ -335,12 +336,12 @@ def write(path: Path, content: str | bytes) -> Path:
     return _write_own(path, data, _is_kept(path, data))
 
 
-def save(figure: Any, path: Path, dpi: int = 150) -> Path:
-    """Write a figure of matplotlib, in the format that its name ends with; return the
-    path."""
+def save(figure: Any, path: Path, dpi: int | None = None) -> Path:
+    """Write a figure of matplotlib, in the format that its name ends with, and with
+    dots per inch (DPI if None); return the path."""
     buffer = io.BytesIO()
     terminal.set_literally(figure)
-    figure.savefig(buffer, format=path.suffix[1:] or "png", dpi=dpi)
+    figure.savefig(buffer, format=path.suffix[1:] or "png", dpi=dpi or DPI)
     return write(path, buffer.getvalue())
 
 

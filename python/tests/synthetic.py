@@ -10,7 +10,7 @@ from caisson.paths import ROOT
 from caisson.results import Table
 from caisson.table import write_csv
 
-setattr(disk.save, "__defaults__", (40,))  # dpi of pictures, at which nobody looks
+disk.DPI = 40  # of pictures, at which nobody looks
 
 
 def write_columns(path: Path, table: Table) -> None:

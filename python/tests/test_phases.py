@@ -128,7 +128,9 @@ class Page(WithPage):
         self.leave_phase("phase_3_retrieval", f"{title}: rest 3 d; retrieval")
         push, retrieval = rows_of(Results(self.path))
         self.assertEqual(push.folder, "phase_2_push")
-        self.assertRegex(push.said, "^Feasible to .*Ended early: the plug fills .*l\\).$")
+        self.assertRegex(
+            push.said, "^Feasible to .*Ended early: the plug fills .*l\\).$"
+        )
         self.assertEqual(retrieval.said, "not run yet: caisson run computes it")
         page = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
         self.assertTrue('<a href="phase_2_push/report.html">push</a>' in page)

@@ -12,11 +12,13 @@ CAISSON_MPM_TEST_DIRECTORY where the results go.
 """
 import atexit
 import contextlib
+import ctypes
 import functools
 import io
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -47,6 +49,7 @@ ALONE = environment()  # of a program on one rank
 # program
 SERVER = os.environ.get("CAISSON_MPM_TEST_SERVER")
 START = Path.cwd()  # where the server runs
+PR_SET_CHILD_SUBREAPER = 36  # of Linux
 ONE_CALL = threading.Lock()  # at a time, of all threads
 
 
@@ -135,6 +138,8 @@ def server() -> "subprocess.Popen[str] | None":
     """Return the process that makes short calls cheap, if there is one."""
     if not SERVER or os.path.getmtime(SERVER) < os.path.getmtime(PROGRAM):
         return None
+    # what it starts and does not wait for becomes a child of this process
+    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     process = subprocess.Popen(
         [SERVER],
         text=True,
@@ -148,25 +153,45 @@ def server() -> "subprocess.Popen[str] | None":
     return process
 
 
-def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
-    """Let the server make a call; return nothing where it cannot."""
+def ask_server(words: list[str], output: str, waits: bool) -> int | None:
+    """Let the server make a call, whose words go to the end of a file; return its exit
+    status, or at once the number of its process. None where the server cannot."""
     if Path.cwd() != START:
         return None
-    with ONE_CALL, tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+    with ONE_CALL:
         process = server()
         if process is None:
             return None
         assert process.stdin and process.stdout
-        for word in (output.name, str(len(words) - 1), *words[1:]):
+        for word in (output, str(int(waits)), str(len(words) - 1), *words[1:]):
             process.stdin.write(word + "\0")
         process.stdin.flush()
-        status = int(process.stdout.readline())
+        return int(process.stdout.readline())
+
+
+def query_server(words: list[str]) -> "subprocess.CompletedProcess[str] | None":
+    """Let the server make a call; return nothing where it cannot."""
+    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        status = ask_server(words, output.name, waits=True)
+        if status is None:
+            return None
         return subprocess.CompletedProcess(words, status, output.read())
 
 
+class Started:
+    """A process that the server has started: what a run asks of a subprocess.Popen."""
+
+    def __init__(self, pid: int) -> None:
+        self.pid, self.returncode = pid, 0
+
+    def kill(self) -> None:
+        """End it."""
+        os.kill(self.pid, signal.SIGKILL)
+
+
 class ThroughServer:
-    """The module subprocess, but that the server makes the calls of the program whose
-    words are waited for."""
+    """The module subprocess, but that the server makes the calls of the program: those
+    whose words are waited for, and those whose words go to a file."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(subprocess, name)
@@ -177,9 +202,18 @@ class ThroughServer:
         done = query_server(words) if is_query else None
         return done or subprocess.run(words, **more)
 
+    def Popen(self, words: list[str], **more: Any) -> Any:  # noqa: N802, its name there
+        """Start a program."""
+        is_run = words[0] == str(PROGRAM) and isinstance(
+            more.get("stdout"), io.TextIOBase
+        )
+        log = os.path.abspath(more["stdout"].name) if is_run else ""
+        pid = ask_server(words, log, waits=False) if is_run else None
+        return Started(pid) if pid else subprocess.Popen(words, **more)
+
 
 setattr(runner, "subprocess", ThroughServer())
-setattr(disk.save, "__defaults__", (40,))  # dpi of pictures, at which nobody looks
+disk.DPI = 40  # of pictures, at which nobody looks
 
 
 def caisson(*words: Any, cwd: Path | None = None) -> "subprocess.CompletedProcess[str]":

@@ -4,9 +4,12 @@
 // call goes into loading the 200 libraries of deal.II. This process has loaded
 // them, and each call is a fork of it that begins with the main function.
 //
-// A call is the file for what the program writes, the number of its arguments,
-// and the arguments, with a zero byte after each. The answer is a line with the
-// exit status, or with the negative number of the signal.
+// A call is the file for what the program writes, whether it is waited for ("1"
+// or "0"), the number of its arguments, and the arguments, with a zero byte
+// after each. The answer is a line with the exit status, or with the negative
+// number of the signal; of a process that is not waited for, it is its number.
+// Such a process has lost its parent, so that it becomes a child of who asked
+// for that (PR_SET_CHILD_SUBREAPER).
 #define main program_main
 #include "../../source/main.cc"
 #undef main
@@ -32,7 +35,7 @@ namespace
   start(const std::string &file, std::vector<std::string> &words)
   {
     const int nothing = open("/dev/null", O_RDONLY);
-    const int output  = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int output  = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
     if (nothing < 0 || output < 0)
       std::_Exit(127);
     dup2(nothing, STDIN_FILENO);
@@ -46,23 +49,64 @@ namespace
     arguments.push_back(nullptr);
     std::exit(program_main(words.size(), arguments.data()));
   }
+
+  /** Return the exit status of a child, or the negative number of the signal.
+   */
+  int
+  wait_for(const pid_t child)
+  {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /** Run the program to its end; return its exit status. */
+  int
+  run(const std::string &file, std::vector<std::string> &words)
+  {
+    const pid_t child = fork();
+    if (child == 0)
+      start(file, words);
+    return wait_for(child);
+  }
+
+  /** Start the program in a process without a parent; return its number. */
+  pid_t
+  leave(const std::string &file, std::vector<std::string> &words)
+  {
+    int numbers[2];
+    if (pipe(numbers) != 0)
+      std::_Exit(127);
+    const pid_t child = fork();
+    if (child == 0)
+      {
+        setsid();
+        pid_t grandchild = fork();
+        if (grandchild == 0)
+          start(file, words);
+        std::_Exit(::write(numbers[1], &grandchild, sizeof(pid_t)) < 0);
+      }
+    wait_for(child);
+    pid_t result = -1;
+    if (::read(numbers[0], &result, sizeof(pid_t)) != sizeof(pid_t))
+      std::_Exit(127);
+    close(numbers[0]);
+    close(numbers[1]);
+    return result;
+  }
 } // namespace
 
 int
 main(int, char *argv[])
 {
-  std::string file, number;
-  while (read(file) && read(number))
+  std::string file, is_waited_for, number;
+  while (read(file) && read(is_waited_for) && read(number))
     {
       std::vector<std::string> words(1 + std::stoul(number), argv[0]);
       for (std::size_t i = 1; i < words.size(); ++i)
         read(words[i]);
-      const pid_t child = fork();
-      if (child == 0)
-        start(file, words);
-      int status = 0;
-      waitpid(child, &status, 0);
-      std::cout << (WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status))
+      std::cout << (is_waited_for == "1" ? run(file, words) :
+                                           leave(file, words))
                 << std::endl;
     }
 }

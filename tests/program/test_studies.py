@@ -116,8 +116,7 @@ class Parameters(ProgramTest):
     def test_angles(self) -> None:
         """The base is the scene's; a stronger soil and rougher walls resist more; a
         value that is added later costs one run."""
-        of_users = mock.patch.object(disk.save, "__defaults__", (150,))  # dpi
-        self.enterContext(of_users)
+        self.enterContext(mock.patch.object(disk, "DPI", 150))  # that of users
         path = self.made_directory()
         done = self.study(path, "26")
         self.assertEqual(done.returncode, 0, done.stdout)
