@@ -445,6 +445,14 @@ class Reading(unittest.TestCase):
         self.assertIn("1 repeated rows", log.remarks[1])
         self.assertIn("were sorted", log.remarks[2])
 
+    def test_past_midnight(self) -> None:
+        """A clock without a date goes on on the next day; rows that are not in order
+        by less than half a day are sorted."""
+        rows = ("23:40,1,10", "23:55,1.1,11", "23:50,1.05,10.5", "00:10,1.2,12")
+        log = self.read("time,depth_m,suction_kPa", *rows)
+        np.testing.assert_allclose(log.depth, [1, 1.05, 1.1, 1.2])
+        np.testing.assert_allclose(np.diff(log.time), [600, 300, 900])
+
     def test_refused(self) -> None:
         for lines, text in (
             (("depth_m,qc_MPa", "1,2"), "no row names a column of depth and one of"),

@@ -191,7 +191,8 @@ class Park(CommandTest):
             self.assertIn(why, said)
 
     def test_scenes(self) -> None:
-        """They have the name of the position, and the units of the heads."""
+        """They have the name of the position, and the units of the heads; the error is
+        that of the call before where none is given."""
         self.write(ROW.format("North 1", 20))
         self.caisson(*self.words_of("--check"))
         text = (self.out / "scenes/North_1.prm").read_text(encoding="utf-8")
@@ -199,6 +200,11 @@ class Park(CommandTest):
             "set Title = North 1, a caisson of 4 m with a wall of 40 mm", text
         )
         self.assertRegex(text, r"Submerged weight += 60000")
+        words = self.words_of("--check")
+        words.remove("--error")
+        words.remove("20")  # as last time
+        said, _ = self.caisson(*words)
+        self.assertIn("positions: 1, of which new or changed: 0", said)
         for damage in ("[]", "null", "3", '{"North 1": 3}', "{"):
             (self.out / "positions.json").write_text(damage, encoding="utf-8")
             said, _ = self.caisson(*self.words_of("--check"))

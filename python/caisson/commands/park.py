@@ -57,6 +57,7 @@ from caisson.verdict import installation
 
 HERE = Path(__file__).parent
 KNOWN = "positions.json"  # what the scenes rest on, by the name of a position
+EVERY, USUAL_ERROR = "", 5  # in the place of a name; %
 PAGE, TABLE, PICTURE = "overview.html", "overview.csv", "overview.png"
 COLORS = ("#2166ac", "#d95f02", "#1b9e77", "#7570b3", "#a6761d", "#e7298a", "#666666")
 
@@ -65,8 +66,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of `caisson park`."""
     add = parser.add_argument
     add("positions", type=Path, metavar="positions.csv", help="the table")
-    text = "wanted, in %%, of positions whose row has none"
-    add("--error", type=percent, choices=LEVELS, default=5, help=text)
+    text = "wanted, in %%, of rows that have none; default: as last time, or 5"
+    add("--error", type=percent, choices=LEVELS, help=text)
     add("--out", type=Path, metavar="DIR", help="of the results")
     add("--check", action="store_true", help="write the scenes, and run nothing")
     study_command.add_running_arguments(parser)
@@ -86,20 +87,22 @@ def cost_of(name: str, scene: Path) -> str:
     return f"{name}: {how_long}{each}, {warnings}: {short(file)}"
 
 
-def prepare(table: Path, error: int, folder: Path) -> list[Position]:
+def prepare(table: Path, error: int | None, folder: Path) -> list[Position]:
     """Write the scenes of a table into a folder, as far as they are not there; return
-    its positions. Raises InputError."""
-    positions, known = park_rows.read(table, error), folder / KNOWN
+    its positions. error: None for that of the call before. Raises InputError."""
+    known = folder / KNOWN
+    try:
+        before = dict(json.loads(disk.read_text(known)))
+        error = error or int(before[EVERY]["error"])
+    except (InputError, *disk.DAMAGE):  # there is none, or a broken one
+        before = {}
+    positions = park_rows.read(table, error or USUAL_ERROR)
     wrong = park_rows.wrong_names(table, positions)
     if wrong:
         raise InputError("\n".join(wrong))
     disk.claim(folder, table, "give another folder by --out DIR")
     for name in (KNOWN, PAGE, TABLE, PICTURE):
         disk.refuse_input(folder / name)
-    try:
-        before = dict(json.loads(disk.read_text(known)))
-    except (InputError, *disk.DAMAGE):  # there is none, or a broken one
-        before = {}
     records = {p.name: park_rows.record_of(table, p) for p in positions}
     scenes = folder / "scenes"
     new = [
@@ -109,7 +112,8 @@ def prepare(table: Path, error: int, folder: Path) -> list[Position]:
         or not (scenes / f"{file_name(p.name)}.prm").is_file()
     ]
     park_rows.write_scenes(table, new, scenes)
-    disk.write(known, json.dumps(records, indent=1))
+    every = {EVERY: {"error": str(error or USUAL_ERROR)}}
+    disk.write(known, json.dumps(records | every, indent=1))
     print(f"positions: {len(positions)}, of which new or changed: {len(new)}")
     for position in positions:
         print(cost_of(position.name, scenes / f"{file_name(position.name)}.prm"))

@@ -57,6 +57,8 @@ JUMP = 2.0  # times all readings around, above which a few are a spike
 END_JUMP = 4.0  # the same for the first and last, behind which no reading is normal
 QUIET = 0.1  # of the usual level, below which the pump may have stopped
 MOST = 1e12  # in the unit of a quantity, beyond which a number means none
+# a day, and the time of the first one, on which clocks without dates count (s)
+DAY, CLOCKS = 86400.0, datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC).timestamp()
 NAMED = 5  # spikes that are named one by one
 
 # places of the cells, and what their numbers are multiplied by
@@ -201,6 +203,14 @@ def scaled(text: str, factor: float) -> float:
     return value
 
 
+def past_midnight(time: np.ndarray) -> np.ndarray:
+    """Return times [n] (s), where those of clocks without dates go on on the next day:
+    a clock that is half a day and more behind the row above has passed midnight."""
+    if not ((CLOCKS <= time) & (time < CLOCKS + DAY)).all():
+        return time
+    return time + DAY * np.cumsum(np.diff(time, prepend=time[0]) < -DAY / 2)
+
+
 def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     """Return the rows [n, quantities] in the order of time, without those that are
     repeated and without spikes. Raises InputError where suction is negative."""
@@ -209,6 +219,8 @@ def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     if len(once) < len(table):
         remarks.append(f"{len(table) - len(once)} repeated rows are left out")
     has_time = bool(np.isfinite(once[:, 0]).all())
+    if has_time:
+        once[:, 0] = past_midnight(once[:, 0])
     if has_time and (np.diff(once[:, 0]) < 0).any():
         remarks.append("rows were not in the order of time, and were sorted")
     if has_time:
