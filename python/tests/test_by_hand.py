@@ -141,8 +141,9 @@ class Scene(unittest.TestCase):
     ) -> by_hand.ByHand:
         """Return it with layers of soil, and a cone test of 2 MPa. assumed: an entry
         that the scene marks so; body: sizes of its wall."""
-        first = {"cavitation_suction_Pa": 3e5, "penetration_m": 0.5, "time_s": 0.0}
+        first = {"penetration_m": 0.5, "time_s": 0.0}
         scene: dict[str, Any] = {**SCENE, **body, "layers": list(layers)}
+        scene["boiling_suction_at_mudline_Pa"] = 3e5 + 8.5 * WATER
         if weight:
             scene["submerged_weight_N"] = weight
         warnings = [

@@ -62,7 +62,7 @@ PARTS = ("tip_force", "inner_friction", "outer_friction")
 REST = 2.0  # m, of the made-up run
 # no suction draws it in: it has no weight, and its outer wall much friction
 LIGHT: dict[str, Any] = {
-    "submerged_weight_N": 0,
+    "submerged_weight_N": 1,
     "design_methods": {"k_tan_delta_inside": [2, 2], "k_tan_delta_outside": [2, 2]},
     "outer_wall_friction_angle_deg": 45,
     "layers": [{**SAND, "K0": 2}],

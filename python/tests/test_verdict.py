@@ -188,6 +188,10 @@ class Verdicts(WithPage):
         text = verdict.verdict_of(Results(self.path)).text
         words = "The lid bears on the soil from 4.2 m on, with 1 MN at the end."
         self.assertIn(words, text)
+        self.run_of(scene={**SCENE, "skirt_length_m": 4.0})
+        self.change_history(suction_Pa=0, required_suction_Pa=0)
+        text = verdict.verdict_of(Results(self.path)).text
+        self.assertIn("The skirt is 4 m long: below that depth a lid would bear", text)
 
     def test_kept(self) -> None:
         """In a file of its own: run.json is that of the program, and what came out of

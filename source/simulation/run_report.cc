@@ -298,6 +298,9 @@ namespace CaissonMPM
       if (const std::string reason = parts.water->reason_to_end();
           !reason.empty())
         append(members, {{"end_reason", reason}});
+      if (lid != nullptr)
+        append(members,
+               {{"boiling_suction_at_mudline_Pa", lid->boiling_at_mudline()}});
       if (const auto place = lid != nullptr ? lid->infeasible() : std::nullopt)
         append(members,
                {{"infeasible",

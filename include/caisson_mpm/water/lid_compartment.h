@@ -138,6 +138,14 @@ namespace CaissonMPM
       return settings().control == SuctionSettings::Control::sealed;
     }
 
+    /** The suction at which water boils beneath a lid at the mudline. Units:
+     * Pa. */
+    double
+    boiling_at_mudline() const
+    {
+      return suction_.cavitation(0.);
+    }
+
     /** The load of the suction on the lid. Units: N. */
     double
     load() const

@@ -121,7 +121,8 @@ class ConeMethod:
     def pressure(self, z: float, case: str) -> float:
         """Return what bears on a face that looks down at a depth (Pa): k_p q_c."""
         above = [layer for layer in self.layers if layer.top < z] or self.layers[:1]
-        return above[-1].coefficients[case].tip * self.profile.at(z)
+        tip = above[-1].coefficients[case].tip
+        return tip * self.profile.at(z) if tip else 0.0
 
     def plain_forces(self, h: float, case: str) -> Forces:
         """Return the forces on the tip and on the walls at an embedment."""
@@ -131,6 +132,8 @@ class ConeMethod:
             if layer.top >= h:
                 break
             k = layer.coefficients[case]
+            if not k.inner and not k.outer:  # no cone resistance needs to be known
+                continue
             part = self.profile.integral(min(bottom, h))
             part -= self.profile.integral(layer.top)
             inner, outer = inner + k.inner * part, outer + k.outer * part

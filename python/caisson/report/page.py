@@ -115,7 +115,8 @@ def incomplete_of(run: Results) -> str:
         is_early = not is_locked(run.directory)
     if not is_early or depth is None or verdict.verdict_of(run).end:
         return ""
-    how = run.shown, depth.max(), run.planned, failed
+    end = depth[-1] if evaluation.is_pull(run) else depth.max()
+    how = run.shown, end, run.planned, failed
     return say(SENTENCES, "incomplete", *how)
 
 

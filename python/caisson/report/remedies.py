@@ -140,16 +140,20 @@ class Planned:
         plug = {name: values / 1e3 for name, values in every.items()}
         return critical / 1e3, piping / 1e3, plug
 
-    def needs(self, sizes: Sizes) -> np.ndarray:
-        """Return the required suction, at least 0: less of it takes less from tip and
-        inner friction."""
+    def resists(self, sizes: Sizes) -> dict[str, np.ndarray]:
+        """Return the forces of jacking, by part."""
         old, (tip, inner, outer) = self.sizes, self.forces
         forces = {
             "tip": tip * (sizes.tip / old.tip),
             "inner friction": inner * (sizes.inner / old.inner),
             "outer friction": outer * (sizes.diameter / old.diameter),
         }
-        forces["total"] = np.sum(list(forces.values()), axis=0)
+        return {**forces, "total": np.sum(list(forces.values()), axis=0)}
+
+    def needs(self, sizes: Sizes) -> np.ndarray:
+        """Return the required suction, at least 0: less of it takes less from tip and
+        inner friction."""
+        forces = self.resists(sizes)
         critical, *_ = self.by_methods(*sizes[:2])
         found = suction_of(forces, sizes.weight, sizes.area, critical)
         return np.maximum(found, 0.0)
@@ -170,12 +174,12 @@ class Planned:
             thickness = wall.thickness * sizes.wall / self.sizes.wall
             wall = wall._replace(diameter=sizes.diameter, thickness=thickness)
             more = shell.beyond_suction(self.pressures, wall, list(self.at))
-            weight, factor = 1e3 * sizes.weight, factors[limits.SHELL]
+            borne = 1e3 * np.minimum(sizes.weight, self.resists(sizes)["total"])
             buckles = [
-                shell.limit_suction(wall, float(h), weight, float(x), factor) / 1e3
-                for h, x in zip(self.at, more)
+                shell.limit_suction(wall, float(h), w, float(x), factors[limits.SHELL])
+                for h, w, x in zip(self.at, borne, more)
             ]
-            found[limits.SHELL] = np.array(buckles)
+            found[limits.SHELL] = np.array(buckles) / 1e3
         return {k: np.where(np.isnan(x), inf, x) for k, x in found.items()}
 
     def has_room(self, sizes: Sizes) -> bool:
@@ -189,9 +193,11 @@ class Planned:
     def suffices(self, sizes: Sizes) -> bool:
         """Return whether the required suction is below all limits, but for where it
         begins, as in Installation.share, and the plug below the lid."""
-        least = np.min([np.full(len(self.at), inf), *self.allows(sizes).values()], 0)
-        needed = self.needs(sizes)
-        return self.has_room(sizes) and bool((needed < least)[has_begun(needed)].all())
+        endless, allowed = np.full(len(self.at), inf), self.allows(sizes)
+        least, needed = np.min([endless, *allowed.values()], 0), self.needs(sizes)
+        counts = has_begun(needed, self.there is not None)
+        counts |= allowed.get(limits.SHELL, endless) <= 0
+        return self.has_room(sizes) and bool((needed < least)[counts].all())
 
     def steel(self, sizes: Sizes) -> float:
         """Return the weight (kN) with another skirt of steel."""

@@ -20,7 +20,7 @@ from caisson.results import Results
 from caisson.verdict import outcome, retrieval, run_review, theory, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
-from caisson.verdict.limits import COMPUTED, PIPING, REVERSE_BEARING
+from caisson.verdict.limits import COMPUTED, PIPING, REVERSE_BEARING, SHELL
 
 NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
@@ -63,7 +63,8 @@ def of_suction(
     if ended is not None:
         gradient = by_gradient(run) if ended[1] == REASONS[PIPING] else None
         more = remedies.sentence_of(run, found, planned or float(found.depth[-1]))
-        return f"{say('ends', found, ended[1], NEAR, gradient)} {more}".strip()
+        buckles = ended[1].startswith(SHELL) and not found.required[-1]
+        return f"{say('ends', found, ended[1], NEAR, gradient, buckles)} {more}".strip()
     shares = found.utilization
     nearest = int(np.nanargmax(shares)) if (shares > 0).any() else None
     most = int(np.argmax(found.required))
@@ -89,7 +90,9 @@ def said_of(run: Results) -> Verdict:
     if not len(found.required) or not run.weight:
         is_jacked = run.entry("Rigid body/Motion") in ("", "prescribed")
         how = "Jacked" if is_jacked else "Sunk"
-        return Verdict(say("pushed", found, how, evaluation.lid_contact(run.history)))
+        length = float(run.scene.get("skirt_length_m") or np.inf)
+        lid = evaluation.lid_contact(run.history)
+        return Verdict(say("pushed", found, how, length, lid))
     ended = outcome.end_of(run)
     if ended is None:
         return Verdict(of_suction(run, found, None))

@@ -39,7 +39,7 @@ from caisson.evaluation import BOILING, DEPTH, GRADIENT, HEAVE, SUCTION, TOTAL
 from caisson.evaluation import UNDER_WEIGHT, heave_of_ledges
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import query, set_options
-from caisson.units import GRAVITY
+from caisson.units import WATER
 from caisson.verdict import suction_methods, theory
 
 IN_SAND = ("houlsby_byrne", "dnv", "senders_randolph")  # of METHODS
@@ -48,7 +48,6 @@ COLUMNS = dict(
 )
 DEEP = 20 * DIAMETER  # m, from where on a cone is deep
 ROWS = 150  # over the way
-WEIGHT_OF_WATER = 1000 * GRAVITY  # N/m3
 STEP = {
     "Time/End time": "",
     "Output/Frame interval": "never",
@@ -68,13 +67,12 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> list[theory.Answer]:
     """Return the methods that count, with their forces of jacking at embedments [n]
     (m); none that ends above the deepest of them, as a cone test may, nor by an assumed
     cone where that would not be deep, as beside a model."""
-    in_clay = theory.answer_of(theory.OF_CLAY, site, depth)
-    if in_clay.forces:
-        return [in_clay]
-    methods = [method for method in theory.METHODS if method.key in IN_SAND]
-    found = [theory.answer_of(method, site, depth) for method in methods]
-    shallow = depth.max() < DEEP
-    known = [x for x in found if x.forces and not (x.assumed and shallow)]
+    known = [theory.answer_of(theory.OF_CLAY, site, depth)]
+    if not known[0].forces:
+        methods = [method for method in theory.METHODS if method.key in IN_SAND]
+        found = [theory.answer_of(method, site, depth) for method in methods]
+        shallow = depth.max() < DEEP
+        known = [x for x in found if x.forces and not (x.assumed and shallow)]
     return [x for x in known if np.isfinite(x.band("total")).all()]
 
 
@@ -175,7 +173,13 @@ class ByHand(Results):
         answers = answers_of(self.site, np.append(depth, self.end))
         if not answers:
             every = theory.answers_of(self.site, np.array([self.end]))
-            raise ResultsError(theory.reasons_in_words(every))
+            cone, why = self.site.cone, theory.reasons_in_words(every)
+            if cone is not None and cone.depth[-1] < self.end:
+                why = (
+                    f"no hand method knows the sand below {cone.depth[-1]:g} m, where"
+                    " the cone test ends: set a Time/End penetration above it"
+                )
+            raise ResultsError(why)
         found = forces_of(answers, self.estimate)
         return {part: values[:-1] for part, values in found.items()}
 
@@ -233,7 +237,7 @@ class ByHand(Results):
         flowing = np.where(depth <= self.sand_end, np.maximum(required, 0.0), 0.0)
         for h, s in zip(map(float, depth), flowing):
             left = 1 - pressure_factor(h / caisson.outer_diameter, ratio)
-            gradient = left * s / (WEIGHT_OF_WATER * h) if h > 0 else 0.0
+            gradient = left * s / (WATER * h) if h > 0 else 0.0
             area = suction.plug_area(caisson)
             flow.append(ratio * self.permeability_at(h) * gradient * area)
             piping = suction.piping_suction(caisson, h, ratio)
@@ -241,13 +245,13 @@ class ByHand(Results):
         return {GRADIENT: np.array(share), "seepage_flow_m3_s": np.array(flow)}
 
     def boiling_at(self, depth: np.ndarray) -> Table:
-        """Return the suction at which water boils beneath the lid, [n] (Pa): that of
-        the first step, and what the water above has more."""
-        first = self.table("history.csv", "time_s")
-        if BOILING not in first:
+        """Return the suction at which water boils beneath the lid, [n] (Pa): less than
+        at the mudline by its height, and none high above the sea."""
+        if (at_mudline := self.scene.get("boiling_suction_at_mudline_Pa")) is None:
             return {}
-        deeper = depth - first[DEPTH][0]
-        return {BOILING: first[BOILING][0] + WEIGHT_OF_WATER * deeper}
+        height = float(self.scene.get("skirt_length_m") or 0) - depth
+        found = float(at_mudline) - WATER * height
+        return {BOILING: np.maximum(found, 0.0)}
 
     def columns_at(self, depth: np.ndarray) -> Table:
         """Return the columns of a history at embedments [n] (m)."""

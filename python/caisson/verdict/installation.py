@@ -41,10 +41,11 @@ def plug_area(scene: Mapping[str, Any]) -> float:
     return math.pi / 4 * inner**2
 
 
-def has_begun(required: np.ndarray) -> np.ndarray:
-    """Return where a required suction [n] (kPa) counts, [n]: where it begins, limits
-    that follow from it are ratios of small numbers."""
-    return np.asarray(required > max(NOTHING, LITTLE * float(required.max())))
+def has_begun(required: np.ndarray, is_exact: bool = False) -> np.ndarray:
+    """Return where a required suction [n] (kPa) counts, [n]: where that of a run, which
+    is not exact, begins, its share of a limit is a ratio of small numbers."""
+    least = 0.0 if is_exact else LITTLE * float(required.max())
+    return np.asarray(required > max(NOTHING, least))
 
 
 class Rate(NamedTuple):
@@ -86,6 +87,7 @@ class Installation:
     depth: np.ndarray
     forces: dict[str, np.ndarray]
     shown: Units = USUAL  # in which tables and cards have them
+    is_exact: bool = False  # by hand methods
     force_bounds: Bounds | None = None
     required: np.ndarray = field(default_factory=lambda: np.empty(0))
     required_bounds: Bounds | None = None
@@ -144,7 +146,12 @@ class Installation:
     def share(self) -> np.ndarray:
         """The same [n], 0 where nothing bounds it, and where suction begins."""
         known = np.nan_to_num(self.utilization, posinf=1e9)
-        return np.where(has_begun(self.required), known, 0.0)
+        return np.where(has_begun(self.required, self.is_exact), known, 0.0)
+
+    @property
+    def buckled(self) -> np.ndarray:
+        """Where the wall buckles under what it bears without any suction, [n]."""
+        return np.asarray(self.limits.get(limits.SHELL, np.ones(len(self.depth))) <= 0)
 
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""
@@ -219,10 +226,10 @@ def around_tops(run: Results, first: float, end: float) -> np.ndarray:
 
 
 def peaks_of(run: Results, found: Installation) -> np.ndarray:
-    """Return the depths [n] (m) between rows where the required suction, or its share
-    of the allowable one, is larger than in all rows, as in a thin layer, and where it
-    first reaches the allowable one."""
-    first, end = found.depth[0], found.depth[-1]
+    """Return the depths [n] (m) between rows, or above the first of them, where the
+    required suction, or its share of the allowable one, is larger than in all rows, as
+    in a thin layer, and where it first reaches the allowable one."""
+    first, end = float(run.history[DEPTH][0]), found.depth[-1]
     even = np.linspace(first, end, PIECES + 1)
     at = np.union1d(even, around_tops(run, first, end))
     if (fine := installation_at(run, Rate(), at)) is None:
@@ -248,12 +255,12 @@ def installation_at(
         return None
     at = numbers["penetration_m"]
     forces = {name: numbers[name] / 1e3 for name in design.FORCES}
-    found = Installation(at, forces, run.shown)
+    found = Installation(at, forces, run.shown, run.by_hand is not None)
     if bars := bounds_of(numbers, "total_force", "N"):
         found.force_bounds = bars.scaled(1e-3)
     if curves.WITH_WATER in numbers:
         found.with_water = numbers[curves.WITH_WATER] / 1e3
-    if design.SUCTION in numbers:
+    if design.SUCTION in numbers and (run.weight or run.by_hand):
         add_suction(found, run, numbers, rate)
     return found
 

@@ -18,7 +18,14 @@ import numpy as np
 from caisson import curves
 from caisson.design import plug_stability, shell
 from caisson import evaluation
-from caisson.evaluation import DEPTH, EXPECTED_HEAVE, HEAVE, at_depths, pump_limit
+from caisson.evaluation import (
+    DEPTH,
+    EXPECTED_HEAVE,
+    HEAVE,
+    TOTAL,
+    at_depths,
+    pump_limit,
+)
 from caisson.ledges import parts_of_wall
 from caisson.verdict import suction_methods, theory
 from caisson.results import Results, ResultsError
@@ -174,15 +181,18 @@ def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
     return np.where(near, means, np.nan)
 
 
-def shell_limit(run: Results, at: np.ndarray, factor: float) -> np.ndarray:
-    """Return the suction (kPa) at which the wall buckles at depths [n] (m), by the
-    pressures on it that the run has at its frames."""
+def shell_limit(
+    run: Results, at: np.ndarray, borne: np.ndarray, factor: float
+) -> np.ndarray:
+    """Return the suction (kPa) at which the wall buckles at depths [n] (m), where it
+    bears some of the weight, [n] (N), by the pressures on it that the run has at its
+    frames."""
     if (wall := wall_of(run)) is None:
         return np.full(len(at), np.nan)
     more = shell.beyond_suction(shell.pressures_of(run, wall), wall, at)
     found = [
-        shell.limit_suction(wall, float(h), run.weight, float(p), factor)
-        for h, p in zip(at, more)
+        shell.limit_suction(wall, float(h), float(w), float(p), factor)
+        for h, w, p in zip(at, borne, more)
     ]
     return np.array(found) / 1e3
 
@@ -257,7 +267,8 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
         lid = lid_depth(depth, float(length) - depth - heave)
         met = np.inf if lid is None or lid > depth[-1] else rounded_down(lid)
         found[LID] = np.where(at < met - 1e-9, inf, 0.0)
-    found[SHELL] = shell_limit(run, at, factors[SHELL])
+    borne = np.minimum(run.weight, numbers[TOTAL])
+    found[SHELL] = shell_limit(run, at, borne, factors[SHELL])
     return {k: values for k, values in found.items() if not np.isnan(values).all()}
 
 

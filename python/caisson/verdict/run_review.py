@@ -15,6 +15,7 @@ import numpy as np
 from caisson import template
 from caisson.results import Results, Table
 from caisson.table import digits
+from caisson.units import WATER
 
 say = partial(template.say, Path(__file__).with_name("words.jinja"))
 # A fall counts if it takes less than this way, in widths of the tip. The stretches of
@@ -35,6 +36,9 @@ LARGEST_LOST, LARGEST_LOST_UNDRAINED = 0.03, 0.1
 LARGEST_KINETIC = 0.01  # of the work, in a run whose forces are those of slow motion
 WORK = {"external_work_J", "kinetic_energy_J", "total_force_N"}
 AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
+# m/s, that of a pump; P-wave over Young's modulus, with a Poisson's ratio of 0.3
+USUAL_RATE, P_WAVE = 1.0 / 3600, 1.35
+UNSTEADY = 1.0  # v D / c_v, below which flow counts as steady
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 
 
@@ -222,6 +226,24 @@ class Review:
         return say("fast", percent(found.share), found.penetration, most)
 
 
+def unsteady_flow(run: Results) -> str:
+    """Return a warning of sand in which the flow is not steady as a pump moves the
+    caisson: v D / c_v, by c_v = k M / gamma_w, is above UNSTEADY."""
+    diameter = float(run.scene.get("diameter_m") or 0)
+    if not run.weight or run.entry("Water/Level") != "seepage":
+        return ""
+    found = dict[int, float]()
+    for number, layer in enumerate(run.scene.get("layers", []), 1):
+        names = "permeability_m_s", "youngs_modulus_Pa", "friction_angle_deg"
+        k, modulus, angle = (float(layer.get(name) or 0) for name in names)
+        if float(layer.get("top_depth_m") or 0) < (run.planned or 0) and angle > 0:
+            c_v = k * P_WAVE * modulus / WATER
+            ratio = USUAL_RATE * diameter / c_v if c_v > 0 else 0.0
+            found[int(layer.get("layer", number))] = ratio
+    number, most = max(found.items(), key=lambda x: x[1], default=(0, 0.0))
+    return say("unsteady", number, most) if most > UNSTEADY else ""
+
+
 def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
     """Return the warnings without those about what is deeper than the end of suction
     (m)."""
@@ -231,16 +253,18 @@ def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
 
 @functools.lru_cache(maxsize=32)
 def review_of(run: Results) -> tuple[str, ...]:
-    """Return what the records of a run that has ended say against it; nothing of one
-    by an earlier version of the program, whose run.json has that itself."""
+    """Return what the records of a run that has ended say against it, but of one by an
+    earlier version of the program, whose run.json has that itself; and whether its
+    flow is steady."""
+    flow = tuple(filter(None, [unsteady_flow(run)]))
     if (
         run.by_hand
         or run.is_running
         or "tip" not in run.known
         or "tip_force_N" not in run.history
     ):
-        return ()
-    return tuple(Review(run).warnings())
+        return flow
+    return *Review(run).warnings(), *flow
 
 
 def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:

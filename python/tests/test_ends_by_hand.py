@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the way down ends by hand methods, against calculations by hand."""
+import unittest
+
+import numpy as np
+from test_by_hand import AREA, CLAY, D, END, SAND, Scene, WATER
+from test_by_hand import bisected, in_clay, parts_in_sand, suction_in_sand
+
+from caisson.design import shell
+from caisson.report import verdict
+from caisson.results import ResultsError
+from caisson.verdict import limits, outcome, run_review
+
+
+class Ends(Scene):
+    """What ends it in places where few rows stand."""
+
+    def test_above_the_first_row(self) -> None:
+        """A light caisson in sand meets piping at the first depth at which the mean of
+        the methods needs more than 10 h / (1 - a) kPa, where the tip bears nearly all:
+        far above half a meter. Under twenty times its weight it does not there."""
+
+        def excess(h: float, weight: float) -> float:
+            found = suction_in_sand(h, parts_in_sand(h).mean(axis=0), weight)
+            a = 0.45 - 0.36 * (1 - np.exp(-h / D / 0.48))
+            return found - 10e3 * h / (1 - a)
+
+        end = bisected(excess, 0.0, 5e4, end=0.1)
+        self.assertGreater(excess(0.1, 5e4), 0)
+        run = self.scene(SAND, weight=5e4)
+        self.assertAlmostEqual(outcome.feasible_to(run), end, delta=0.05)
+        self.assertGreater(outcome.feasible_to(self.scene(SAND, weight=1e6)), 0.5)
+
+    def test_a_short_cone_test(self) -> None:
+        """In clay below sand no cone resistance counts, and the test may end there; in
+        sand below the test no method knows the force."""
+        layers = [SAND, {**CLAY, "top_depth_m": 3.0}]
+        self.scene(*layers, weight=1.2e6)
+        test = "depth_m,qc_MPa\n0,2\n4,2\n"
+        forces = list[np.ndarray]()
+        for text in ("", test):
+            run = self.scene(*layers, weight=1.2e6)
+            if text:
+                (self.path / "cone.csv").write_text(text, encoding="utf-8")
+            forces.append(run.columns_at(np.array([2.0, 3.5, 7.0]))["total_force_N"])
+        self.assertTrue(np.isfinite(forces[1]).all())
+        np.testing.assert_allclose(forces[1], forces[0])
+        run = self.scene(*layers, {**SAND, "top_depth_m": 6.0}, weight=1.2e6)
+        (self.path / "cone.csv").write_text(test, encoding="utf-8")
+        with self.assertRaisesRegex(ResultsError, "below 4 m, where the cone test end"):
+            run.columns_at(np.array([2.0]))
+
+    def test_a_wall_that_buckles_by_weight(self) -> None:
+        """A thin wall that bears the smaller one of weight and resistance, which here
+        push it in without suction; a thick one bears it."""
+        thin, weight = {"wall_thickness_m": 0.005}, 3e7
+        run = self.scene(CLAY, weight=weight, body=thin)
+        self.assertLess(run.columns_at(np.array([END]))["total_force_N"][0], weight)
+
+        def bears(h: float) -> float:
+            wall = limits.wall_of(run)
+            assert wall is not None
+            borne = float(run.columns_at(np.array([h]))["total_force_N"][0])
+            return -shell.limit_suction(wall, h, borne, 0.0, 1.3)
+
+        end = bisected(bears, -1e-9)
+        self.assertLess(end, END - 0.5)
+        said = verdict.verdict_of(run)
+        self.assertAlmostEqual(said.end or 0, end, delta=0.1)
+        self.assertIn(
+            "there the wall does not bear the weight (wall buckles", said.text
+        )
+        text = verdict.verdict_of(self.scene(CLAY, weight=weight)).text
+        self.assertIn("no suction is needed", text)
+
+    def test_lid_above_the_sea(self) -> None:
+        """Water boils beneath a lid 3 m over a mudline at which 30 kPa boil it: 0.6 kPa
+        are left there, and none higher up."""
+        run = self.scene(CLAY)
+        run.scene["boiling_suction_at_mudline_Pa"] = 30e3
+        found = run.boiling_at(np.array([5.0, 6.0, 8.0]))["cavitation_suction_Pa"]
+        np.testing.assert_allclose(found, [0, 30e3 - 3 * WATER, 30e3 - WATER])
+        weight, end = 2e6, outcome.depth_of(run) or 0
+        needed = (in_clay(end, 8.25) - weight) / AREA
+        self.assertAlmostEqual(needed, max(30e3 - WATER * (9 - end), 0), delta=4e3)
+
+    def test_flow_that_is_not_steady(self) -> None:
+        """v D / c_v at 1 m/h, with c_v = k 1.35 E / 9810 N/m3, is above 1."""
+        for k, is_steady in ((1e-5, True), (1e-7, False)):
+            layer = {**SAND, "permeability_m_s": k, "youngs_modulus_Pa": 20e6}
+            run = self.scene(layer)
+            run.summary["entries"]["Water/Level"] = "seepage"
+            (said,) = run_review.review_of(run) or ("",)
+            self.assertEqual(not said, is_steady)
+            ratio = D / 3600 / (k * 1.35 * 20e6 / WATER)
+            self.assertIn("" if is_steady else f"vD/c_v is {ratio:.2g} at 1 m/h", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
