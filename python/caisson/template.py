@@ -25,7 +25,7 @@ def environment(folder: Path, is_page: bool, **more: Any) -> jinja2.Environment:
         **more,
     )
     found.filters["quoted"] = disk.quoted
-    found.filters["number"] = lambda value, digits=6: f"{float(value):.{digits}g}"
+    found.filters["number"] = number
     found.filters["short"] = text_of
     found.filters["ends"] = ends
     found.filters["sentence"] = sentence
@@ -41,6 +41,12 @@ def template(path: Path, **filters: Callable[..., str]) -> jinja2.Template:
     found = environment(path.parent, is_page, finalize=finalize)
     found.filters.update(filters)
     return found.get_template(path.name)
+
+
+def number(value: float, digits: int = 6) -> str:
+    """Return a number with some digits, below a million without an exponent."""
+    text = f"{float(value):.{digits}g}"
+    return f"{float(text):.0f}" if 1 <= abs(float(text)) < 1e6 and "e" in text else text
 
 
 def ends(values: list[float], form: str = "g", word: str = " to ") -> str:

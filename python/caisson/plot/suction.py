@@ -91,7 +91,7 @@ def draw_heave(axes: Axes, run: Results, found: Installation | None) -> None:
         last = np.flatnonzero(depth <= feasible_to(run))[-1]
         flow = 3600 * history["seepage_flow_m3_s"][last]
         place = run.shown.depth(depth[last])
-        text = f"seepage into the plug at {place}: {flow:.2g} m³/h"
+        text = f"seepage into the plug at {place}: {float(f'{flow:.2g}'):g} m³/h"
         axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlabel("heave of the plug (m)")
 
