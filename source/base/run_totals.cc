@@ -4,6 +4,8 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 
 namespace CaissonMPM
@@ -59,10 +61,24 @@ namespace CaissonMPM
   NamedNumbers
   RunTotals::state() const
   {
-    NamedNumbers result;
+    NamedNumbers result = of_plug;
     for (const Total &total : totals)
       result.emplace_back(total.name, total.get());
     return result;
+  }
+
+  void
+  RunTotals::pass_on(const NamedNumbers &state)
+  {
+    const auto is_registered = [this](const std::string &name) {
+      return std::any_of(totals.begin(), totals.end(), [&](const Total &total) {
+        return total.name == name;
+      });
+    };
+    of_plug.clear();
+    for (const auto &[name, value] : state)
+      if (boost::starts_with(name, "plug_") && !is_registered(name))
+        of_plug.emplace_back(name, value);
   }
 
   std::string
@@ -75,6 +91,7 @@ namespace CaissonMPM
           return total.name;
         total.set(total.is_sum() && !is_first_rank ? 0. : *value);
       }
+    pass_on(state);
     return "";
   }
 
@@ -85,5 +102,6 @@ namespace CaissonMPM
       if (total.kind == Kind::carried_state)
         if (const auto value = number_named(total.name, state))
           total.set(*value);
+    pass_on(state);
   }
 } // namespace CaissonMPM

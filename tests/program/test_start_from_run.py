@@ -158,7 +158,7 @@ class Installation(ProgramTest):
         before, whole = self.directory("before"), self.directory("whole")
         self.run_scene("suction", before, entries=SHORT)
         shutil.copytree(before, whole)
-        longer = {**SHORT, DEPTH: 0.62}
+        longer: Entries = {**SHORT, DEPTH: 0.62}
         self.run_scene("suction", whole, SUCCESS, "--restart", entries=longer)
         path = self.directory("after")
         self.run_scene("suction", path, entries={**longer, INSTALLATION: before})
@@ -168,6 +168,15 @@ class Installation(ProgramTest):
             self.assertAlmostEqual(last[key] / end[key], 1, 5, key)
         for key in ("seepage_volume_m3", "pumped_volume_m3"):
             self.assertAlmostEqual(last[key] / (end[key] - start[key]), 1, 5, key)
+        # a run without a lid knows no plug, which the next one with a lid goes on with
+        drained, again = self.directory("drained"), self.directory("again")
+        longer |= {DEPTH: 0.605, "Water/Level": "drained", INSTALLATION: before}
+        self.run_scene("suction", drained, entries=longer)
+        longer |= {DEPTH: 0.61, "Water/Level": "seepage", INSTALLATION: drained}
+        self.run_scene("suction", again, entries=longer)
+        ends = [rows[-1]["plug_heave_m"] for rows in map(history, (before, whole))]
+        heave = history(again)[-1]["plug_heave_m"]
+        self.assertTrue(ends[0] < heave < ends[1], (ends, heave))
 
     def go_on_both_ways(
         self, entries: Entries, tolerance: float = 1e-6

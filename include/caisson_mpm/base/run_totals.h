@@ -132,7 +132,13 @@ namespace CaissonMPM
     void
     insert(const Total &total);
 
+    /** Keep what a plug has registered, where this run has none, as in a pull
+     * without a lid: it goes on in the runs that follow. */
+    void
+    pass_on(const NamedNumbers &state);
+
     std::vector<Total> totals;
+    NamedNumbers       of_plug;
   };
 } // namespace CaissonMPM
 
