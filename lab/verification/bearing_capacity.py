@@ -141,14 +141,16 @@ def meeting(
     if footing.circular:
         turn_a = turn_a + 4 * sin(e) * np.sin(psi_a) / (a.r + r) * ds_a
         turn_b = turn_b - 4 * sin(e) * np.sin(psi_b) / (b.r + r) * ds_b
-    weight_a = footing.weight * np.sin(psi_a - e) * ds_a
-    weight_b = footing.weight * np.sin(psi_b + e) * ds_b
     radius_a = footing.mean_radius(a.p, p, 0.5 * (a.z + z))
     radius_b = footing.mean_radius(b.p, p, 0.5 * (b.z + z))
-    left_a = c * (p - a.p) + radius_a * turn_a + weight_a
-    left_b = c * (p - b.p) - radius_b * turn_b - weight_b
-    left_a = left_a + footing.gradient * np.cos(psi_a - e) * ds_a
-    left_b = left_b + footing.gradient * np.cos(psi_b + e) * ds_b
+    left_a = c * (p - a.p) + radius_a * turn_a
+    left_b = c * (p - b.p) - radius_b * turn_b
+    if footing.weight > 0:
+        left_a = left_a + footing.weight * np.sin(psi_a - e) * ds_a
+        left_b = left_b - footing.weight * np.sin(psi_b + e) * ds_b
+    if footing.gradient > 0:
+        left_a = left_a + footing.gradient * np.cos(psi_a - e) * ds_a
+        left_b = left_b + footing.gradient * np.cos(psi_b + e) * ds_b
     return r, z, left_a, left_b
 
 
@@ -179,8 +181,8 @@ def next_points(footing: Footing, a: Front, b: Front) -> Front:
         turn = bounded((p_b * left_a - p_a * left_b) / det, -0.3, 0.3)
         p, psi = p * (1 + change), psi + turn
         largest = np.fmax.reduce(np.abs((change, turn)), axis=None, initial=0.0)
-        if not largest > 1e-12:
-            break
+        if not largest > 1e-7:
+            break  # the change after it is of the order of its square
     r, z, _, _ = meeting(footing, a, b, p, psi)
     lost = ~((r > 0) & np.isfinite(p) & np.isfinite(psi))
     return Front(*(np.where(lost, np.nan, x) for x in (r, z, p, psi)))
@@ -267,6 +269,8 @@ def build_net(footing: Footing, surface: Array, fan: Array, n_base: int) -> Net:
                 field[:] = value
             if first == n_base:
                 ray.append(base[-1])
+            if isnan(base[-1].r[0]):
+                break  # the lines after it pass the axis, too
             old, first = old.part(slice(1, None)), first + 1
         here = front.part(slice(first, n + 1))
         if len(here.r) == 0:
@@ -275,6 +279,8 @@ def build_net(footing: Footing, surface: Array, fan: Array, n_base: int) -> Net:
             field[:] = value
         if wave - first == last and first > n_base:
             ray.append(here.part(slice(0, 1)).copy())
+            if isnan(ray[-1].r[0]):
+                break
     return Net(join(base), join(ray) if ray else join(base[:1]))
 
 

@@ -149,7 +149,7 @@ class TipOfAWall(unittest.TestCase):
         for phi, ratio in ((20, 0.6), (30, 1), (30, 0.5), (30, 0.2), (40, 0.1)):
             exact = weightless_tip(phi, 1.0, ratio)
             tip = Tip(phi, Side(1.0), Side(ratio))
-            self.assertAlmostEqual(wall_tip.tip_pressure(tip, 20) / exact, 1, places=9)
+            self.assertAlmostEqual(wall_tip.tip_pressure(tip, 10) / exact, 1, places=9)
             self.assertAlmostEqual(self.upper_bound(phi, ratio) / exact, 1, places=6)
 
     def test_one_sided(self) -> None:
@@ -166,7 +166,7 @@ class TipOfAWall(unittest.TestCase):
         tip = Tip(30, Side(10, 1), Side(10, 1))
         half = Footing(30, False, True, surcharge=10, weight=0.5)
         np.testing.assert_allclose(
-            wall_tip.tip_pressure(tip, 20), pressure(half, 20), rtol=2e-4
+            wall_tip.tip_pressure(tip, 14), pressure(half, 14), rtol=2e-4
         )
 
     def test_little_weight(self) -> None:
@@ -179,7 +179,7 @@ class TipOfAWall(unittest.TestCase):
         wedge, passive = np.sqrt(3) / 4, np.exp(k * np.pi / 2) * 3 / 8
         exact = 2 * (fan + passive) - wedge
         tip = Tip(30, Side(1e3, 1), Side(1e3, 1))
-        found = wall_tip.converged(tip, 40) - weightless_tip(30, 1e3, 1e3)
+        found = wall_tip.converged(tip, 20) - weightless_tip(30, 1e3, 1e3)
         self.assertAlmostEqual(found / exact, 1, delta=2e-3)
 
     def test_weight_of_one_side(self) -> None:
