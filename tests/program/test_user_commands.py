@@ -121,16 +121,19 @@ subsection Output
 end
 """
 
-    def test_own_scene(self) -> None:
+    @mock.patch("caisson.report.write")  # which test_run_command.py looks at
+    @mock.patch("caisson.plot.draw", return_value=[])
+    def test_own_scene(self, *nothing: mock.Mock) -> None:
         """Two meshes and the runs with other numerics on the coarse one; a run
-        then finds its bar. A budget for one mesh is refused with the one to set."""
+        then finds its bar. A budget for one mesh is refused with the one to set. A
+        wanted error takes the same runs."""
         path = self.made_directory()
-        file = path / "own.prm"
+        file, runs = path / "own.prm", path / "new" / "results_meshes"
         file.write_text(self.SCENE, encoding="utf-8")
-        call = ["error-bar", str(file), "--results", str(path / "runs")]
+        call = ["error-bar", str(file), "--results", str(runs)]
         listed, _ = self.caisson(*call, "--list")
         self.assertRegex(listed, r"(?m)^refinement 0.5: about .*\ndefault: about ")
-        self.assertFalse((path / "runs").exists())
+        self.assertFalse(runs.exists())
         said, _ = self.caisson(*call)
         for run in ("inertia", "time step", "points", "boundaries"):
             self.assertRegex(said, rf"(?m)^own {run}: \d+ s$")
@@ -156,23 +159,20 @@ end
         self.assertRegex(
             complaint, "not enough for a second mesh. Set --budget [0-9.]+(s|min|h),"
         )
+        file.write_text(self.SCENE, encoding="utf-8")
+        (path / "own_error_bar.csv").unlink()
+        self.look_at_wanted_error(file, path / "new" / "results")
 
-    @mock.patch("caisson.report.write")  # which test_run_command.py looks at
-    @mock.patch("caisson.plot.draw", return_value=[])
-    def test_wanted_error(self, *nothing: mock.Mock) -> None:
+    def look_at_wanted_error(self, file: Path, results: Path) -> None:
         """The first mesh that is good enough runs with its bar; an error that comes
         from the mass scaling is not looked for on finer meshes."""
-        path = self.made_directory()
-        file = path / "own.prm"
-        file.write_text(self.SCENE, encoding="utf-8")
-        to = ["--output-directory", str(path / "new" / "results")]
+        to = ["--output-directory", str(results)]
         first = ["run", "--ranks", "1", "--error", "45%", str(file), *to]
         said, _ = self.caisson(*first)
+        self.assertIn("runs to do: 1, ", said)
         self.assertRegex(said, r"(?m)^refinement 1: error of the total force \d")
         self.assertNotIn("refinement 1.5:", said)
-        self.assertIn(
-            "total_force_low_N", Results(path / "new" / "results").error_bounds
-        )
+        self.assertIn("total_force_low_N", Results(results).error_bounds)
         call = ["run", "--error", "20%", str(file), *to]
         self.assertIn("a quarter of Time/Inertia", self.caisson(*call, status=1)[1])
         call[1:1] = ["--budget", "0.1s"]
