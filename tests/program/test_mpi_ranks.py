@@ -159,6 +159,8 @@ class Messages(ProgramTest):
             ranks=2,
             entries={
                 "Time/End time": 2,
+                "Grid/Outer radius": 1.4,
+                "Rigid body/Box right": 1.4,
                 "Output/Record interval": 0.1,
                 "Boundary conditions/Side": "free",
             },

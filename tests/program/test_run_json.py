@@ -5,6 +5,7 @@ import html
 import importlib.util
 import json
 import re
+import time
 import unittest
 from typing import Any
 
@@ -271,7 +272,7 @@ class Progress(ProgramTest):
         self.addCleanup(process.kill)
         file = path / "run.json"
         while not file.is_file() and process.poll() is None:
-            pass
+            time.sleep(0.005)
         found = json.loads(file.read_text(encoding="utf-8"))
         self.assertEqual(found["status"], "running")
         self.assertLess(found["progress"]["fraction_done"], 1)
@@ -295,6 +296,7 @@ class Progress(ProgramTest):
         self.addCleanup(process.kill)
         done, left, ran = 0.0, None, 0.0
         while process.poll() is None and not (left and done > 0.01):
+            time.sleep(0.05)
             if (path / "run.json").is_file():
                 found = summary(path)
                 ran = found["wall_time_s"]

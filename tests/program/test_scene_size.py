@@ -30,7 +30,7 @@ TOO_MANY_POINTS: tuple[tuple[list[str], Entries], ...] = (
         ["Per direction far = 16", "Split and merge"],
         {
             "Material points/Per direction far": 16,
-            "Grid/Refinement": 8,
+            "Grid/Refinement": 5,
         },
     ),
 )

@@ -10,7 +10,7 @@ from unittest import mock
 
 from program import SUCCESS, HERE, ProgramTest, caisson, history, summary
 
-from caisson import density_law
+from caisson import density_law, disk
 from caisson.runner import read_parameters
 from caisson.suggest.soil import LAWS
 from caisson.design import cone_file
@@ -83,7 +83,7 @@ class Sizes(SuggestTest):
         """In growing clay and in layers: the first such scenes of the laboratory run
         without a warning of what the tool has chosen."""
         options = argparse.Namespace(
-            results=self.made_directory(), validate=False, walls=0.05, limit=1000
+            results=self.made_directory(), validate=False, walls=0.02, limit=1000
         )
         for number in range(3, suggested.QUICK):
             case = suggested.case_of(suggested.SEED, number)
@@ -525,8 +525,6 @@ class Files(SuggestTest):
 class Page(SuggestTest):
     """What `caisson report` makes of a scene."""
 
-    has_page = True
-
     def test_page_of_a_changed_scene(self) -> None:
         """A factor that is added to the scene is on its page, in the place of the page
         before; what only a run has is refused."""
@@ -535,6 +533,7 @@ class Page(SuggestTest):
         words = [*sizes, "--weight", "9MN", "--error", "20", "--density", "0.85"]
         self.suggest(path, *words, layers=())
         page = path.with_suffix(".html")
+        disk.write(page, "of the scene before")
         design = "subsection Design\n  set Factor on piping = 1.5\nend\n"
         path.write_text(path.read_text() + design)
         done = caisson("report", "--k-tan-delta-inside", "0.3,0.5", str(path))

@@ -11,6 +11,7 @@ from unittest import mock
 
 from program import HERE, SUCCESS, ProgramTest, caisson, history, scene, summary
 from program import user_scene
+from test_run_command import WITHOUT_PICTURES
 
 from caisson import run_error_bar, ranks
 from caisson.paths import PROGRAM
@@ -23,10 +24,6 @@ NO_FRAMES = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 
 class CommandTest(ProgramTest):
     """Calls the command line as a user does."""
-
-    def words(self, *words: str) -> list[str]:
-        """Return the words of a call."""
-        return [sys.executable, "-B", "-m", "caisson", *words]
 
     def environment(self) -> dict[str, str]:
         """Return that of a call."""
@@ -84,7 +81,8 @@ class Launch(CommandTest):
         path = self.directory()
         sets = [w for k, v in NO_FRAMES.items() for w in ("--set", f"{k}={v}")]
         sets += ["--set", "Time/End penetration=3", "--output-directory", str(path)]
-        words = self.words("run", "--ranks", "2", scene("jack"), *sets)
+        words = [sys.executable, "-B", "-c", WITHOUT_PICTURES]
+        words += ["run", "--ranks", "2", scene("jack"), *sets]
         process = subprocess.Popen(
             words,
             text=True,
