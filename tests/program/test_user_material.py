@@ -33,7 +33,7 @@ SAND = [5e6, 0.3, 30, 0, 0, 0]
 COHESIVE = [5e6, 0.3, 30, 15, 5e3, 1e3]
 # what else follows from the law: its step has a margin, and FLIP its damping
 SAME_STEPS = {
-    "Time/Time step": 4e-4,
+    "Time/Time step": 16e-4,
     "Method/FLIP fraction": 0.9,
     "Time/End penetration": 0.55,
     "Output/Record interval": 0.1,
