@@ -63,6 +63,7 @@ class Park(CommandTest):
     def begun(self, done: list[str]) -> Iterator["subprocess.Popen[str]"]:
         """Start the park, and wait until it has done some runs and makes P2, which does
         not end by itself."""
+        self.caisson(*self.words_of("--check"))  # here, where no page is written
         with subprocess.Popen(
             self.words(*self.words_of("--jobs", "2")),
             env={**self.environment(), "FAKE_PROGRAM_HOLDS": "P2"},
@@ -96,7 +97,6 @@ class Park(CommandTest):
         does."""
         names = ["P1", "P2", "P3"]
         self.write(*(ROW.format(name, 20) for name in names))
-        self.caisson(*self.words_of("--check"))
         others = ["P1", "P3"]
         with self.begun(others) as process:
             os.killpg(process.pid, signal.SIGKILL)

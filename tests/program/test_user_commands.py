@@ -25,6 +25,10 @@ NO_FRAMES = {"Output/Frame interval": "never", "Output/Frame penetrations": ""}
 class CommandTest(ProgramTest):
     """Calls the command line as a user does."""
 
+    def words(self, *words: str) -> list[str]:
+        """Return the words of a call."""
+        return [sys.executable, "-B", "-m", "caisson", *words]
+
     def environment(self) -> dict[str, str]:
         """Return that of a call."""
         return {
