@@ -464,8 +464,9 @@ class Page(Scene):
         ratio may be assumed without a word."""
         for name, is_said in ("Permeability by void ratio", False), ("Permeability", 1):
             run = self.scene(SAND, weight=1.25e6, assumed=f"Soil/Layer 1/{name}")
+            text = self.text(run)
             for words in ("(permeability ASSUMED)", "; permeability ASSUMED: compare"):
-                self.assertEqual(words in self.text(run), bool(is_said), name)
+                self.assertEqual(words in text, bool(is_said), name)
 
     def test_assumed_water_depth(self) -> None:
         """The limit by boiling says so: 300 kPa at 0.5 m are 373.6 at 8 m."""

@@ -216,7 +216,7 @@ class Thin(WithFiles):
     def test_seam_of_clay(self) -> None:
         """It is a layer, of the trough of its readings, and the same layers are found
         for a caisson that does not reach the end of the test."""
-        z = np.arange(0, 14, 0.02)
+        z = np.arange(0, 10, 0.02)
         for top, bottom, spread, strength in (
             (3.2, 3.55, 4, 60),
             (3.2, 3.4, 2, 60),

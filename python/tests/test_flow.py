@@ -11,13 +11,14 @@ from unittest import mock
 
 import numpy as np
 
-from caisson import plot
+from caisson import disk, plot
 from caisson.plot import fields, pore_pressure
 from caisson.plot.cells import CellMeans
 from caisson.plot.flow import Flow
 from caisson.plot.pore_pressure import style_of
 from caisson.results import Results
 
+disk.DPI = 40  # of pictures, at which nobody looks
 TINY = Path(__file__).resolve().parent / "tiny_run"
 SIZE, RADIUS, DEPTH = 0.125, 4.0, 3.0  # m
 N, LEVEL = 8, -1.0

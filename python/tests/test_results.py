@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import plot, table, units
+from caisson import disk, plot, table, units
 from caisson.frame import frames_of
 from caisson.plot import fields, forces
 from caisson.plot.cells import CellMeans, cell_of
@@ -23,6 +23,7 @@ from caisson.plot.walls import shown_times
 from caisson.results import Results, ResultsError, read_table
 from lab.studies import forces as forces_study
 
+disk.DPI = 40  # of pictures, at which nobody looks
 TINY = Path(__file__).resolve().parent / "tiny_run"
 PICTURES = [
     "design.csv",

@@ -9,6 +9,7 @@ import re
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from made_up_state import Temporary
@@ -94,6 +95,12 @@ class MadeUp(Temporary):
         with path.open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows([names, *rows])
 
+    def setUp(self) -> None:
+        super().setUp()
+        self.without_pictures = self.enterContext(contextlib.ExitStack())
+        draw = mock.patch("caisson.export.spring_files.draw")
+        self.without_pictures.enter_context(draw)
+
     def export(self, *words: object) -> tuple[int, str]:
         """Return the status of the command, and what it prints."""
         out = io.StringIO()
@@ -163,7 +170,8 @@ class Files(MadeUp):
     """The command."""
 
     def test_table(self) -> None:
-        """It has the curves, and those of another run beside them."""
+        """It has the curves, and those of another run beside them, and a picture."""
+        self.without_pictures.close()
         path, other = self.write("one", -1), self.write("other", -1)
         status, text = self.export(path, "--to", "tz", "--beside", other)
         self.assertEqual(status, 0, text)
