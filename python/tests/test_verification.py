@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the verification computes itself: a damped wave, consolidation at large strain,
 limit loads of clay by finite elements, and the suction that lifts a plug."""
+import functools
 import math
 import unittest
 
@@ -209,15 +210,21 @@ class RingBearing(unittest.TestCase):
 
     def test_strip(self) -> None:
         """A narrow ring on the surface, at the smooth wall, is half a smooth strip."""
-        coarse, fine = (ring.bearing_factor(ring.Ring(0.05, 0), n) for n in (4, 8))
+        coarse, fine = (ring.bearing_factor(ring.Ring(0.05, 0), n) for n in (3, 6))
         self.assertTrue(2 + np.pi < fine < coarse)
         self.assertAlmostEqual((2 * fine - coarse) / (2 + np.pi), 1, delta=0.01)
 
     def test_column(self) -> None:
         """Clay that stands in the opening adds to the load, until it is high enough."""
-        loads = [ring.bearing_factor(ring.Ring(0.25, h), 4) for h in (0, 0.1, 0.3, 0.6)]
+        loads = [ring.bearing_factor(ring.Ring(0.25, h), 3) for h in (0, 0.1, 0.3, 0.6)]
         self.assertGreater(loads[1], 1.05 * loads[0])
         self.assertAlmostEqual(loads[3] / loads[2], 1, delta=1e-3)
+
+
+@functools.cache
+def lifted(adhesion: float, thickness: float, extent: float) -> float:
+    """Return the suction (Pa) by four cells inside; extent: of the soil (radii)."""
+    return lift(Caisson(1, adhesion, thickness), Strength(), 4, extent)
 
 
 class PlugLift(unittest.TestCase):
@@ -226,16 +233,16 @@ class PlugLift(unittest.TestCase):
     def test_adhesion(self) -> None:
         """Friction on the wall adds less than its strength: the clay below the tip of
         a smooth wall has to fail as well."""
-        loads = [lift(Caisson(1, a), Strength(), 4) for a in (0, 1)]
+        loads = [lifted(a, 0, 4) for a in (0, 1)]
         np.testing.assert_allclose(loads, [8.346, 10.736], rtol=1e-3)
         factor = bearing_factor(10.5, Caisson(1, 1), Strength())
         self.assertAlmostEqual(factor, 8.5)
 
     def test_domain_and_wall(self) -> None:
         """A thicker wall resists more; soil farther away does not matter."""
-        thin, thick = (lift(Caisson(1, 1, t), Strength(), 4) for t in (0, 0.05))
+        thin, thick = (lifted(1, t, 4) for t in (0, 0.05))
         self.assertTrue(1 < thick / thin < 1.02)
-        near, far = (lift(Caisson(1, 1), Strength(), 4, x) for x in (3, 4))
+        near, far = (lifted(1, 0, x) for x in (3, 4))
         self.assertAlmostEqual(near / far, 1, delta=0.01)
 
     def test_crust(self) -> None:
