@@ -18,6 +18,7 @@ class Start(ProgramTest):
         path = self.directory(name)
         more: dict[str, Any] = {
             "Rigid body/Skirt length": 3,
+            "Rigid body/Wall thickness": 0.15,
             "Grid/Outer radius": 7,
             "Grid/Bottom": -5,
             "Grid/Top": 3.5,
