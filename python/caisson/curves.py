@@ -90,22 +90,23 @@ def smoothed_at(position: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.
     centers = np.clip(at, x[0] + half, x[-1] - half)
     first = np.searchsorted(x, centers - half - EDGE)
     last = np.searchsorted(x, centers + half + EDGE, "right")
-    found: np.ndarray = np.interp(at, x, y)
-    for i in np.flatnonzero(last - first >= 3):
+    is_known = last - first >= 3
+    ends = np.column_stack([first, last]).ravel()
+    sums = np.add.reduceat(np.append(y, 0.0), ends)[::2]
+    means = sums / np.maximum(last - first, 1)
+    found: np.ndarray = np.where(is_known, means, np.interp(at, x, y))
+    for i in np.flatnonzero(is_known & (abs(at - centers) >= EDGE)):
         rows = slice(first[i], last[i])
-        found[i] = mean_at(x[rows], y[rows], at[i], centers[i])
+        found[i] = line_at(x[rows], y[rows], at[i])
     return found
 
 
-def mean_at(x: np.ndarray, y: np.ndarray, at: float, center: float) -> float:
-    """Return the mean of smoothed_at() at one position, by rows in the window about a
-    center."""
-    mean = float(y.sum() / len(y))
-    if abs(at - center) < EDGE:
-        return mean
+def line_at(x: np.ndarray, y: np.ndarray, at: float) -> float:
+    """Return the value at a position on the straight line of least squares through
+    values y at x, [n] each."""
     distance = x - x.mean()
     slope = distance @ y / (distance @ distance)
-    return float(mean + slope * (at - x.mean()))
+    return float(y.mean() + slope * (at - x.mean()))
 
 
 def down_at(history: Table, names: Iterable[str], at: np.ndarray) -> Table:
