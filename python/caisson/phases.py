@@ -79,12 +79,16 @@ def title_of(title: str, phases: Sequence[Phase]) -> str:
     return f"{title}: {'; '.join(phase.text for phase in phases)}"
 
 
-def undrained_layer(entries: Mapping[str, str]) -> int:
-    """Return the number of the first layer whose strength is undrained, 0 of none."""
+def layer_with(is_undrained: bool, entries: Mapping[str, str]) -> int:
+    """Return the number of the first layer whose strength is undrained, or of the first
+    one whose strength is not; 0 of none."""
     for i in range(1, int(entries.get("Soil/Number of layers", "1")) + 1):
         law = entries.get(f"Soil/Layer {i}/Law", "")
-        friction = entries.get(f"Soil/Layer {i}/Friction angle", "")
-        if law == "NGI-ADP" or (law == "Mohr-Coulomb" and friction == "0"):
+        friction = entries.get(f"Soil/Layer {i}/Friction angle", "30")
+        has_none = law == "Mohr-Coulomb" and not friction.strip(
+            "0."
+        )  # may be a formula
+        if (law == "NGI-ADP" or has_none) == is_undrained:
             return i
     return 0
 
@@ -107,6 +111,8 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
         )
     if phase.word == REST and not phase.time:
         return "give a time above 0"
+    if phase.depth == 0:
+        return "no run ends at the mudline; give a depth above 0, such as to 0.1 m"
     if phase.word != REST and not float(entries.get("Rigid body/Velocity", "0.1")):
         return "its velocity is a share of Rigid body/Velocity, which is 0; set it"
     if phase.word == UNDRAINED and not is_coupled:
@@ -114,10 +120,23 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
             f"its sealed lid needs water that flows, and Water/Level is {level}; set"
             " Level = coupled, and a permeability of each layer"
         )
-    if phase.word == DRAINED and (layer := undrained_layer(entries)):
+    if phase.word == DRAINED and (layer := layer_with(True, entries)):
         return (
             f"the strength of layer {layer} is undrained, and so is each pull; give"
             f" it a law with a drained friction angle, or write {RETRIEVAL}"
+        )
+    if phase.word == DRAINED and level == "undrained":
+        return (
+            "the excess pressure of Water/Level = undrained would become effective"
+            " stress; set Level = coupled, and a permeability of each layer, and write"
+            f" {REST} TIME before it"
+        )
+    is_dry = phase.word == RETRIEVAL and level == "drained"
+    if is_dry and (layer := layer_with(False, entries)):
+        return (
+            f"water beneath the lid flows through layer {layer}, and Water/Level is"
+            " drained; set Level = seepage, and a permeability of each layer, or write"
+            f" {DRAINED}"
         )
     return ""
 
@@ -125,12 +144,15 @@ def fault_of(phase: Phase, entries: Mapping[str, str]) -> str:
 def refuse_depth(phase: Phase, at: float, entries: Mapping[str, str]) -> None:
     """Refuse a phase that cannot begin at a depth (m), as its own lies behind that.
     Raises RunError."""
-    if phase.word == REST or (end_of(phase, at, entries) - at) * SHARES[phase.word] > 0:
+    end = end_of(phase, at, entries)
+    if phase.word == REST or (end > 0 and (end - at) * SHARES[phase.word] > 0):
         return
     where = "below" if phase.word == PUSH else "above"
     fault = f"give a depth {where} {at:g} m, where the phase before it ends"
     if phase.depth is None:
-        fault = "leave it out: the phase before it ends at the mudline"
+        fault += (
+            f": the way of {100 * LEAST_WAY:g} % of the diameter ends at the mudline"
+        )
     raise RunError(f"{ENTRY}: {phase.text}: {fault}")
 
 

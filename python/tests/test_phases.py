@@ -76,11 +76,35 @@ class Words(unittest.TestCase):
         self.assertIn("above 2 m", self.refusal("retrieval to 2 m"))
         with self.assertRaisesRegex(RunError, "strength of layer 1 is undrained"):
             phases.refuse_faults(phases.phases_in("pull drained"), COUPLED | CLAY)
-        said = self.refusal("retrieval to 0 m, pull undrained")
-        self.assertIn("pull undrained: leave it out: the phase before", said)
+        said = self.refusal("retrieval to 0.1 m, pull undrained")
+        self.assertIn("undrained: give a depth above 0.1 m, where the phase", said)
+        self.assertIn("3 % of the diameter ends at the mudline", said)
         said = self.refusal("push", **{"Rigid body_Velocity": "0"})
         self.assertIn("a share of Rigid body/Velocity, which is 0; set it", said)
         self.assertEqual(phases_asked_for(["--validate"], {phases.ENTRY: "push"}), [])
+
+    def test_what_the_program_would_refuse(self) -> None:
+        """Or compute to a wrong end: it is known before the installation is computed,
+        also where that has no planned depth."""
+        said = self.refusal("pull drained", Water_Level="undrained")
+        self.assertIn("would become effective stress; set Level = coupled", said)
+        for end in ("2", "never"):
+            for word in ("retrieval", "pull drained", "push"):
+                planned = {"Time_End penetration": end}
+                said = self.refusal(f"{word} to 0 m", **planned)
+                self.assertIn("give a depth above 0, such as to 0.1 m", said)
+        said = self.refusal("retrieval", Water_Level="drained")
+        self.assertIn("flows through layer 1, and Water/Level is drained; set", said)
+        clay = {"Soil_Layer 1_Law": "Mohr-Coulomb", "Soil_Layer 1_Friction angle": "0"}
+        two = {**clay, "Soil_Number of layers": "2", "Water_Level": "drained"}
+        self.assertIn("flows through layer 2", self.refusal("retrieval", **two))
+        formula = {**clay, "Soil_Layer 1_Friction angle": "30 + d"}
+        said = self.refusal("retrieval", Water_Level="drained", **formula)
+        self.assertIn("flows through layer 1", said)
+        for none in ("0", "0.0"):
+            known = COUPLED | CLAY | {"Soil/Layer 1/Friction angle": none}
+            part = phases.phases_in("retrieval")
+            phases.refuse_faults(part, known | {"Water/Level": "drained"})
 
 
 class Page(WithPage):
