@@ -8,7 +8,8 @@ depth they move it by 3 % of its diameter: friction needs 1 % (API RP 2GEO), and
 beneath a sealed lid about 2 % (prm/tension.prm).
 
 A rest takes 5 s in the run, as that of prm/tension_after.prm, in which the water flows
-as in its time (Water/Time compression).
+as in its time (Water/Time compression). Without Time/Mass scaling, steps are ten times
+as short, but the ground swings ten times as fast, too: 2 s are enough.
 """
 import re
 from collections.abc import Mapping, Sequence
@@ -28,7 +29,8 @@ PUSH, RETRIEVAL = "push", "retrieval"
 SHARES = {REST: 0.0, DRAINED: -0.2, UNDRAINED: -0.05, PUSH: 0.2, RETRIEVAL: -0.2}
 LEAST_WAY, LARGEST_OVERSHOOT = 0.03, 1e-3  # of the diameter
 NUMBER = r"\d{1,6}(?:\.\d*)?"
-REST_RUN, LARGEST_SCALING = 5.0, 100.0  # s; as in prm/tension.prm
+REST_RUN, LIGHT_REST_RUN = 5.0, 2.0  # s
+LARGEST_SCALING = 100.0  # below a sealed lid, as in prm/tension.prm
 RECORDS = 200  # rows of a phase
 FORM = re.compile(
     rf"(?:{REST} +(?P<time>{NUMBER}) *(?P<unit>{'|'.join(SECONDS)})"
@@ -38,6 +40,7 @@ KNOWN = (
     f"{REST} TIME (such as 30 d, 12 h, 5 min), {DRAINED}, {UNDRAINED}, {PUSH} and"
     f" {RETRIEVAL}; all but a rest may end with to DEPTH, in m"
 )
+SCALING, TOLERANCE = "Time/Mass scaling", "Time/Inertia tolerance"
 LID, WEIGHT = "Water/Suction control", "Rigid body/Submerged weight"
 TABLES = ("Rigid body/Velocity table", "Water/Suction table", "Water/Pumped flow table")
 
@@ -202,32 +205,46 @@ def motion_of(
     """Return the entries of how the body moves in the last of some phases, and where
     its run ends. at: where it begins (m)."""
     velocity, end = velocity_of(phases, entries), end_of(phases[-1], at, entries)
-    seconds = abs(end - at) / abs(velocity) if velocity else REST_RUN
+    seconds = abs(end - at) / abs(velocity) if velocity else rest_run(entries)
     return {
         "Rigid body/Motion": "prescribed",
         "Rigid body/Velocity": f"{velocity:.6g}",
         "Rigid body/Ramp time": f"{ramp_of(phases, entries):.3g}",
         "Method/Local damping": 0.4,
         END: end if velocity else "never",
-        "Time/End time": "never" if velocity else REST_RUN,
+        "Time/End time": "never" if velocity else seconds,
         "Output/Record interval": f"{seconds / RECORDS:.3g}",
     }
 
 
-def water_of(phase: Phase, level: str, scaling: float) -> Entries:
-    """Return the entries of water and lid, of a scene with a Water/Level. scaling: the
-    largest one of the mass in the run before, which a motion against a sealed lid
-    keeps, as far as it may."""
-    scaling = min(scaling, LARGEST_SCALING)
-    kept = {"Time/Inertia tolerance": "none", "Time/Mass scaling": f"{scaling:.6g}"}
-    sealed = {LID: "sealed", **kept}
-    compression, automatic = "Water/Time compression", {LID: "automatic"}
+def rest_run(entries: Mapping[str, str]) -> float:
+    """Return the time (s) of a rest in its run."""
+    return REST_RUN if float(entries.get(SCALING, "1")) > 1 else LIGHT_REST_RUN
+
+
+def inertia_of(phase: Phase, entries: Mapping[str, str], scaling: float) -> Entries:
+    """Return the entries of the inertia of the soil below a sealed lid. Time/Mass
+    scaling stays, as it must after an installation. A tolerance needs a velocity, and
+    becomes that of a slower one. scaling: the largest one of the mass in the
+    installation, which is kept, as far as it may be."""
+    tolerance = entries.get(TOLERANCE, "none")
+    if phase.word not in (REST, UNDRAINED) or tolerance == "none":
+        return {}
+    share = SHARES[phase.word] ** 2 * min(1, LARGEST_SCALING / scaling)
+    return {TOLERANCE: f"{float(tolerance) * share:.3g}" if share else "none"}
+
+
+def water_of(phase: Phase, entries: Mapping[str, str]) -> Entries:
+    """Return the entries of water and lid."""
+    level, compression = entries.get("Water/Level", "drained"), "Water/Time compression"
+    sealed, automatic = {LID: "sealed"}, {LID: "automatic"}
     vented = {LID: "table", "Water/Suction table": "0:0", WEIGHT: "0"}
     has_flow = level in ("seepage", "coupled")  # where automatic is a required suction
+    faster = max(phase.time / rest_run(entries), 1)
     of_word: dict[str, Entries] = {
-        REST: sealed | {compression: f"{max(phase.time / REST_RUN, 1):.6g}"},
+        REST: {**sealed, compression: f"{faster:.6g}"},
         DRAINED: {"Water/Level": "drained", **automatic},
-        UNDRAINED: sealed | {compression: "1"},
+        UNDRAINED: {**sealed, compression: "1"},
         PUSH: vented if has_flow else automatic,
         RETRIEVAL: {LID: "required"},
     }
@@ -243,7 +260,8 @@ def entries_of(
     run, phase = Results(before), phases[-1]
     at = float(run.history["penetration_m"][-1])
     refuse_depth(phase, at, entries)
-    scaling = max(run.summary.get("mass_scaling") or [1.0])
+    first = before if len(phases) == 1 else before.parent  # see folder_of
+    scaling = max(Results(first).summary.get("mass_scaling") or [1.0])
     return {
         "Title": title_of(title, phases),
         ENTRY: "",
@@ -252,5 +270,6 @@ def entries_of(
         "Output/Frame penetrations": "",
         **{name: "" for name in TABLES if entries.get(name)},
         **motion_of(phases, at, entries),
-        **water_of(phase, entries.get("Water/Level", "drained"), scaling),
+        **water_of(phase, entries),
+        **inertia_of(phase, entries, scaling),
     }

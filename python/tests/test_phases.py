@@ -113,20 +113,37 @@ class Page(WithPage):
     def test_entries(self) -> None:
         """A rise of 0.18 m of 6 m at a fifth of the velocity, from the last row; the
         water of a rest flows for 30 d in 5 s."""
-        leave_run(self.path, {**SUMMARY, "mass_scaling": [2.0, 500.0]})
+        leave_run(self.path, SUMMARY)
+        leave_run(self.path / "phase_2_rest", SUMMARY)
         part = phases.phases_in("rest 30 d, retrieval")
         known = COUPLED | {"Rigid body/Velocity table": "0:0.1"}
-        found = phases.entries_of(part, self.path, known, "mine")
+        found = phases.entries_of(part, self.path / "phase_2_rest", known, "mine")
         self.assertEqual(found["Title"], "mine: rest 30 d; retrieval")
         self.assertEqual(found["Time/End penetration"], 4.32)
         self.assertEqual(found["Rigid body/Velocity"], "-0.02")
         self.assertEqual(found["Rigid body/Velocity table"], "")
         self.assertEqual(found["Water/Suction control"], "required")
-        self.assertNotIn("Time/Mass scaling", found)
+        self.assertNotIn("Time/Inertia tolerance", found)
+        known["Time/Mass scaling"] = "1000"
         found = phases.entries_of(part[:1], self.path, known, "mine")
         self.assertEqual(found["Water/Time compression"], "518400")
-        self.assertEqual(found["Time/Mass scaling"], "100")
+        self.assertNotIn("Time/Mass scaling", found)
         self.assertEqual(found["Time/End time"], 5.0)
+
+    def test_inertia(self) -> None:
+        """After an installation with a tolerance of it, the mass is not scaled in a
+        rest, and as much as in the installation in a slow pull, at most by 100."""
+        leave_run(self.path, {**SUMMARY, "mass_scaling": [2.0, 500.0]})
+        leave_run(self.path / "phase_2_rest", {**SUMMARY, "mass_scaling": [1.0, 1.0]})
+        part = phases.phases_in("rest 30 d, pull undrained")
+        known = COUPLED | {"Time/Inertia tolerance": "0.8", "Time/Mass scaling": "1"}
+        rest = phases.entries_of(part[:1], self.path, known, "mine")
+        self.assertEqual(rest["Time/Inertia tolerance"], "none")
+        self.assertEqual(rest["Time/End time"], 2.0)
+        self.assertEqual(rest["Water/Time compression"], "1.296e+06")
+        pull = phases.entries_of(part, self.path / "phase_2_rest", known, "mine")
+        self.assertEqual(pull["Time/Inertia tolerance"], "0.0004")
+        self.assertFalse({"Time/Mass scaling"} & {*rest, *pull})
 
     def test_ended_before_its_depth(self) -> None:
         """A depth that the run before has not come to is no end of a retrieval."""

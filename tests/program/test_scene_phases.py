@@ -14,6 +14,7 @@ from test_undrained_suction import TOTAL_STRESS
 
 from caisson import phases, report
 from caisson.results import Results
+from caisson.runner import Run, read_parameters
 
 SHORT: Entries = {
     **TOTAL_STRESS,
@@ -178,6 +179,30 @@ class Phases(ProgramTest):
         text = self.run_phases(BAD_INPUT, path)
         self.assertIn("--overwrite computes the scene and its phases again", text)
         self.run_phases(SUCCESS, path, "--overwrite")
+
+
+class Sealed(ProgramTest):
+    """What follows an installation in coupled water below a sealed lid."""
+
+    def test_inertia(self) -> None:
+        """The program takes the inertia of a rest and of a pull after an installation
+        with a tolerance of it, and after one whose mass is scaled by more than theirs.
+        """
+        path = self.directory()
+        for tolerance, scaling in (("0.8", 1), ("none", 400)):
+            entries: Entries = {
+                "Water/Level": "coupled",
+                "Time/End penetration": 0.505,
+                "Time/Inertia tolerance": tolerance,
+                "Time/Mass scaling": scaling,
+            }
+            there = path / tolerance
+            self.run_scene("suction", there, entries=entries)
+            known = read_parameters([scene("suction"), *set_options(entries)])
+            for text in ("rest 1 d", "pull undrained to 0.504"):
+                part = phases.phases_in(text)
+                own = phases.entries_of(part, there, known, "mine")
+                Run(Path(scene("suction")), {**entries, **own}, path / "new").validate()
 
 
 if __name__ == "__main__":
