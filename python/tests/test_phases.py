@@ -187,6 +187,21 @@ class Page(WithPage):
             leave_run(self.path, {**scene, "written": written})
             self.assertEqual(rows_of(Results(self.path))[0].folder, folder)
 
+    def test_behind_one_that_does_not_count(self) -> None:
+        """Nor does a phase count after one that is of an earlier scene."""
+        title, entries = SUMMARY["title"], {phases.ENTRY: "push, retrieval"}
+        scene = {**SUMMARY, "entries": entries, "status": "stopped"}
+        folders = ["phase_2_push", "phase_3_retrieval"]
+        for day, name, text in zip((2, 3), folders, ("push", "push; retrieval")):
+            told = {"title": f"{title}: {text}", "written": f"2026-01-0{day}"}
+            leave_run(self.path / name, {**scene, **told})
+        for day, known in ((1, folders), (4, ["", ""])):
+            leave_run(self.path, {**scene, "written": f"2026-01-0{day}"})
+            rows = rows_of(Results(self.path))
+            self.assertEqual([row.folder for row in rows], known)
+            words = "not finished yet" if known[0] else "not run yet"
+            self.assertTrue(all(row.said.startswith(words) for row in rows))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -40,19 +40,11 @@ def said_of(run: Results, before: Results, is_rest: bool) -> str:
     return say(SENTENCES, "rested", run.shown, *ends)
 
 
-def row_of(
-    of_phase: Results, before: Results, title: str, part: list[phases.Phase]
-) -> Row:
-    """Return the row of the last of some phases, after another run, of a scene with a
-    title. A folder with the results of other phases does not count, nor one whose
-    results are older than the run where it begins."""
-    text = part[-1].text
+def is_after(of_phase: Results, before: Results, title: str) -> bool:
+    """Return whether a folder has the results of a phase with a title, and not of other
+    ones, nor such that are older than the run where it begins."""
     times = [str(run.known.get("written", "")) for run in (before, of_phase)]
-    is_other = of_phase.known.get("title") != phases.title_of(title, part)
-    if is_other or times != sorted(times):
-        return Row(text, say(SENTENCES, "not_run"), "")
-    said = said_of(of_phase, before, part[-1].word == REST)
-    return Row(text, said, of_phase.directory.name)
+    return of_phase.known.get("title") == title and times == sorted(times)
 
 
 def rows_of(run: Results) -> list[Row]:
@@ -61,7 +53,15 @@ def rows_of(run: Results) -> list[Row]:
     asked = disk.read_text(path, InputError) if path.is_file() else run.entry(ENTRY)
     every = phases.phases_in(asked)
     title = run.known.get("title") or Path(str(run.known.get("scene_file"))).stem
-    names = (phases.folder_of(phase, i) for i, phase in enumerate(every, 2))
-    runs = [run, *(Results(run.directory / name) for name in names)]
-    pairs = enumerate(zip(runs[1:], runs), 1)
-    return [row_of(*pair, title, every[:n]) for n, pair in pairs]
+    rows, before, counts = list[Row](), run, True
+    for number, phase in enumerate(every, 2):
+        folder = phases.folder_of(phase, number)
+        of_phase = Results(run.directory / folder)
+        part = every[: number - 1]  # behind one that does not count, none does
+        counts = counts and is_after(of_phase, before, phases.title_of(title, part))
+        said = say(SENTENCES, "not_run")
+        if counts:
+            said = said_of(of_phase, before, phase.word == REST)
+        rows.append(Row(phase.text, said, folder if counts else ""))
+        before = of_phase
+    return rows
