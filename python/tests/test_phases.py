@@ -4,11 +4,14 @@ import html
 import unittest
 from typing import Any
 
+import numpy as np
+from synthetic import write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import phases
 from caisson.commands.run_several import phases_asked_for
+from caisson.report import verdict
 from caisson.report.phases import rows_of
 from caisson.results import Results
 from caisson.runner import RunError
@@ -176,6 +179,20 @@ class Page(WithPage):
         page = html.unescape(report.write(self.path).read_text(encoding="utf-8"))
         self.assertTrue('<a href="phase_2_push/report.html">push</a>' in page)
         self.assertTrue("not run yet" in page)
+
+    def test_retrieval_that_no_force_pulls(self) -> None:
+        """Water pushes the body up, whose soil bears a load all the way: it has its
+        verdict, too."""
+        depth = np.linspace(2, 1.5, 101)
+        table = {"time_s": 2 - depth, "penetration_m": depth}
+        names = "total_force tip_force inner_friction outer_friction".split()
+        table |= {f"{name}_N": 1e5 * depth for name in names}
+        for name in ("suction_Pa", "required_suction_Pa"):
+            table[name] = -3e4 * depth
+        write_run(self.path, table, SUMMARY)
+        said = verdict.keep(Results(self.path))
+        self.assertIn("retrieval takes an overpressure of up to 59.8 kPa", said)
+        self.assertTrue((self.path / verdict.NAME).is_file())
 
     def test_older_than_its_scene(self) -> None:
         """A phase does not count whose scene was computed again after it."""

@@ -39,13 +39,13 @@ def cards_of(run: Results) -> list[list[str]]:
 
 
 def sentence_of(run: Results) -> str:
-    """Return the largest pull and what fails in a sentence; nothing without a pull."""
-    if not (most := largest_pull(run)):
-        return ""
+    """Return the retrieval by water, or the largest pull and what fails, in a sentence;
+    nothing without either."""
     if found := retrieval_of(run):
         begin = float(run.history[DEPTH].max())
         return say(SENTENCES, "retrieved", run.shown, found, begin, run.weight)
-    return say(SENTENCES, "pulled", run.shown, most, run.weight)
+    most = largest_pull(run)
+    return say(SENTENCES, "pulled", run.shown, most, run.weight) if most else ""
 
 
 def retrieval_table(found: Retrieval, shown: Units) -> dict[str, Any]:
