@@ -28,7 +28,9 @@ from caisson.runner import Run, RunError, Status
 # runs for each core above which several ranks gain nothing that matters, and the
 # duration of a run (s) below which it is not worth to ask for its size
 FEW, LONG = 4, 20
+MOST = 600  # characters of why the program refuses a run
 COMPLETE, FAILED, NOT_RUN = "complete", "failed", "not run"  # outcomes
+ENDED_EARLY = "ended early"  # by a signal
 WAIT = 10  # s, for an answer of the scheduler
 
 
@@ -81,14 +83,17 @@ class StudyRun:
 
     @property
     def last_words(self) -> str:
-        """What the program has said at its end: why it failed, or its last line."""
+        """What the program has said at its end, in a line: why it refused its input or
+        failed, or its last line."""
         try:
             text = self.log.read_text(encoding="utf-8", errors="replace")
         except OSError:
             return ""
         lines = [disk.one_line(line) for line in text.splitlines()]
-        for line in reversed(lines):
-            if line.startswith(("failure: ", "bad input: ")):
+        for i, line in reversed(list(enumerate(lines))):
+            if line.startswith("bad input: "):
+                return " ".join(lines[i:]).split(": ", 1)[1]
+            if line.startswith("failure: "):
                 return line.split(": ", 1)[1]
         return lines[-1] if lines else ""
 
@@ -147,9 +152,9 @@ class StudyRun:
         self.is_stopped = status == Status.STOPPED
         record = self.run.completion_record()
         if record is None:
-            how = "ended early" if status is None else f"exit status {status}"
+            how = ENDED_EARLY if status is None else f"exit status {status}"
             how = "stopped" if self.is_stopped else how
-            why = f": {self.last_words[:300]}" if status == Status.BAD_INPUT else ""
+            why = f": {self.last_words[:MOST]}" if status == Status.BAD_INPUT else ""
             self.trouble = f"{how}, see {self.log}{why}"
         cost = f"{record['wall_s']:.0f} s" if record else self.trouble
         if record and record["status"] == Status.FAILURE:

@@ -86,7 +86,7 @@ def main() -> int:
         print_parameters(entries)
         return 0
     if float(entries["Soil/Friction angle"]) < 0:
-        print("bad input: Friction angle must be positive", file=sys.stderr)
+        print("bad input: Friction angle must be positive\n  Set it", file=sys.stderr)
         return 1
     if not words.validate:
         if words.overwrite:

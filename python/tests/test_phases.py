@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Words of Installation/Phases, the entries of their runs, and their rows on a page."""
+import contextlib
 import html
+import io
+import tempfile
 import unittest
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,12 +13,15 @@ from synthetic import write_run
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson import phases
-from caisson.commands.run_several import phases_asked_for
+from caisson import disk, phases
+from caisson.commands.run_several import phases_asked_for, say_end
 from caisson.report import verdict
 from caisson.report.phases import rows_of
 from caisson.results import Results
-from caisson.runner import RunError
+from caisson.runner import Run, RunError
+from caisson.runs import StudyRun
+
+FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
 COUPLED = {
     "Water/Level": "coupled",
@@ -218,6 +225,49 @@ class Page(WithPage):
             self.assertEqual([row.folder for row in rows], known)
             words = "not finished yet" if known[0] else "not run yet"
             self.assertTrue(all(row.said.startswith(words) for row in rows))
+
+
+class RunsOfUser(unittest.TestCase):
+    """What `caisson run` says and does."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name)
+        (self.path / "a.prm").touch()
+
+    def member(self, angle: int) -> StudyRun:
+        """Return a run of an angle, always in the same folder."""
+        entries = {"Soil/Friction angle": angle}
+        scene, place = self.path / "a.prm", self.path / "out"
+        return StudyRun("", "a", Run(scene, entries, place, program=FAKE_PROGRAM))
+
+    def test_refused(self) -> None:
+        """What the program says then is said in full, in one line."""
+        member = self.member(-1)
+        member.execute()
+        said = "exit status 1, see .*: Friction angle must be positive Set it"
+        self.assertRegex(str(member.trouble), said)
+
+    def test_said_at_the_end(self) -> None:
+        """What a phase needs that has not succeeded, and no circle."""
+        member = self.member(30)
+        member.run.entries[Run.BEFORE] = self.path / "before"
+        for trouble, has_checkpoint, said in (
+            ("ended early, see log", True, "the same command goes on"),
+            ("exit status 1, see log: bad", True, ""),
+            ("exit status 1, see log: bad", False, "--overwrite computes the scene"),
+        ):
+            if has_checkpoint:
+                disk.make_directory(self.path / "before")
+                (self.path / "before/checkpoint.info").touch()
+            else:
+                (self.path / "before/checkpoint.info").unlink()
+            member.trouble = trouble
+            with contextlib.redirect_stderr(io.StringIO()) as told:
+                say_end(member)
+            end = told.getvalue().strip().partition(trouble)[2]
+            self.assertTrue(end.startswith(f"; {said}") if said else not end, end)
 
 
 if __name__ == "__main__":

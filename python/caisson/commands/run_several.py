@@ -19,7 +19,7 @@ from caisson.progress import span
 from caisson.ranks import cores
 from caisson.results import ResultsError
 from caisson.runner import Run, RunError, Status
-from caisson.runs import How, StudyRun, make, survey
+from caisson.runs import ENDED_EARLY, How, StudyRun, make, survey
 
 AGAIN = "--overwrite computes the scene and its phases again"
 QUERIES = {"--validate", "--print-parameters", "--explain", "--version", "--help", "-h"}
@@ -256,8 +256,11 @@ def has_page(member: StudyRun) -> bool:
 def say_end(member: StudyRun) -> None:
     """Say why no phase follows a run that has not succeeded."""
     why = member.trouble or f"{member.last_words}, see {member.log}"
+    before = member.run.entries.get(Run.BEFORE)
     if member.is_stopped:
         why = "stopped; the same command goes on"
-    elif member.run.entries.get("Installation/Directory") and not has_results(member):
-        why = f"{why} {AGAIN}"
+    elif before and not (Path(before) / Run.CHECKPOINT).is_file():
+        why = f"{why}; {AGAIN}"
+    elif why.startswith(ENDED_EARLY):
+        why = f"{why}; the same command goes on"
     print(f"run: {member.name}: {why}", file=sys.stderr)
