@@ -189,7 +189,9 @@ class Run:
     that it set, the exit status and the times. is_complete() compares the hash, so
     that a study repeats only what has changed. A directory with this file is the run's
     own, and its results there are replaced. Elsewhere the program puts earlier results
-    aside. Files with other names stay.
+    aside, and everywhere those that have finished in a run of the user (is_of_user),
+    who may overwrite them, and who repeats what has failed. Files with other names
+    stay.
     """
 
     RECORD = "run_key.json"
@@ -213,6 +215,7 @@ class Run:
         self.scene, self.entries = scene, dict(entries or {})
         self.ranks, self.binding, self.program = ranks, binding, program
         self.restarts = False  # from its checkpoint
+        self.is_of_user = self.overwrites = False  # and not of a study
         # of the program, or of mpirun, while it runs
         self.process_id: int | None = None
         self.asked_to_stop: int | None = None
@@ -362,8 +365,10 @@ class Run:
     def is_complete(self) -> bool:
         """Return whether the results there are those of this run."""
         record = self.completion_record()
+        if record is None or (self.is_of_user and record["status"] != Status.SUCCESS):
+            return False
         try:
-            return record is not None and record["key"] == self.key
+            return bool(record["key"] == self.key)
         except RunError:
             return False
 
@@ -442,13 +447,19 @@ class Run:
                 file.unlink(missing_ok=True)
 
     def make_room(self) -> list[str]:
-        """Make the directory; return the options with which the program removes what
-        is there, if it is the run's own. Its log and its record begin anew."""
-        is_own = (self.directory / self.RECORD).is_file()
+        """Make the directory; return the options with which the program goes on there,
+        or begins and removes what is there. Its record begins anew, and then its log.
+        """
+        record = self.directory / self.RECORD
+        is_own = record.is_file()
+        has_ended = self.left(self.RECORD).get("status") == Status.SUCCESS
         disk.make_directory(self.directory, RunError)
-        for name in ("log", self.RECORD) if is_own else ():
-            (self.directory / name).unlink(missing_ok=True)
-        return ["--overwrite"] if is_own else []
+        record.unlink(missing_ok=True)
+        if is_own and not self.restarts:
+            (self.directory / "log").unlink(missing_ok=True)
+        is_kept = self.restarts or (self.is_of_user and has_ended)
+        how = ["--restart"] if self.restarts else []
+        return how + ["--overwrite"] * (self.overwrites or (is_own and not is_kept))
 
     def execute(
         self, time_limit: float | None = None, ranks: int | None = None
@@ -464,8 +475,7 @@ class Run:
             raise RunError(f"another process computes in {self.directory}")
         with contextlib.suppress(RunError):  # which the program says in the log
             _ = self.key  # as the input is now, which may change while it runs
-        how = ["--restart"] if self.restarts else self.make_room()
-        command = [*self.command(ranks), *how]
+        command = [*self.command(ranks), *self.make_room()]
         begin = time.monotonic()
         with open(self.directory / "log", "a", encoding="utf-8") as log:
             process = subprocess.Popen(

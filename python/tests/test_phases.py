@@ -19,7 +19,7 @@ from caisson.report import verdict
 from caisson.report.phases import rows_of
 from caisson.results import Results
 from caisson.runner import Run, RunError
-from caisson.runs import StudyRun
+from caisson.runs import StudyRun, survey
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
@@ -228,7 +228,7 @@ class Page(WithPage):
 
 
 class RunsOfUser(unittest.TestCase):
-    """What `caisson run` says and does."""
+    """What `caisson run` does with earlier results, beside a study."""
 
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
@@ -236,18 +236,50 @@ class RunsOfUser(unittest.TestCase):
         self.path = Path(temporary.name)
         (self.path / "a.prm").touch()
 
-    def member(self, angle: int) -> StudyRun:
+    def member(self, angle: int, is_of_user: bool = True) -> StudyRun:
         """Return a run of an angle, always in the same folder."""
         entries = {"Soil/Friction angle": angle}
         scene, place = self.path / "a.prm", self.path / "out"
-        return StudyRun("", "a", Run(scene, entries, place, program=FAKE_PROGRAM))
+        run = Run(scene, entries, place, program=FAKE_PROGRAM)
+        run.is_of_user = is_of_user
+        return StudyRun("run:", "a", run)
 
-    def test_refused(self) -> None:
-        """What the program says then is said in full, in one line."""
+    def test_finished_ones_are_kept(self) -> None:
+        """The program puts them aside, but of a study and of one that failed."""
+        picture = self.path / "out/forces.png"  # gone with --overwrite
+        for before, is_of_user, overwrites in (
+            (30, True, False),
+            (30, True, True),
+            (30, False, False),
+            (41, True, False),
+        ):
+            self.member(before).execute(again=True)
+            picture.touch()
+            member = self.member(31, is_of_user)
+            member.run.overwrites = overwrites
+            member.execute()
+            is_kept = before == 30 and is_of_user and not overwrites
+            self.assertEqual(picture.is_file(), is_kept)
+
+    def test_failed_ones_are_repeated(self) -> None:
+        """As after a full disk; a study does not do so."""
+        self.member(41).execute()
+        self.assertEqual(survey([self.member(41, False)]), [])
+        self.assertEqual(len(survey([self.member(41)])), 1)
+
+    def test_restart(self) -> None:
+        """One that is asked for does not look what the checkpoint is of. What the
+        program then refuses is no result, and is said in full, in one line."""
+        self.member(30).execute()
+        (self.path / "out/checkpoint.info").touch()
         member = self.member(-1)
+        member.run.restarts = True
         member.execute()
-        said = "exit status 1, see .*: Friction angle must be positive Set it"
-        self.assertRegex(str(member.trouble), said)
+        self.assertIsNone(member.status)
+        self.assertRegex(
+            str(member.trouble),
+            "exit status 1, see .*: Friction angle must be positive Set it",
+        )
 
     def test_said_at_the_end(self) -> None:
         """What a phase needs that has not succeeded, and no circle."""

@@ -110,6 +110,23 @@ class Phases(ProgramTest):
         text = self.run_phases(SUCCESS, moved, **damped)
         self.assertNotIn("goes on from its checkpoint", text)
 
+    def test_restart(self) -> None:
+        """A finished installation goes on to a later end, and is refused in the words
+        of the program with another entry. Without --restart its results are put aside
+        then, and those of the phase."""
+        path = self.directory()
+        self.run_phases(SUCCESS, path)
+        deeper = {"Time/End penetration": "0.54"}
+        text = self.run_phases(SUCCESS, path, "--restart", **deeper)
+        self.assertIn("from its checkpoint", text)
+        damped = {**deeper, "Method/Local damping": "0.3"}
+        text = self.run_phases(FAILURE, path, "--restart", **damped)
+        self.assertIn("was written with Method/Local damping = 0 and cannot", text)
+        self.assertFalse((path / "earlier_1").exists())
+        self.assertTrue((path / FOLDER / "earlier_1/history.csv").is_file())
+        self.run_phases(SUCCESS, path, **damped)
+        self.assertTrue((path / "earlier_1/history.csv").is_file())
+
     @staticmethod
     def stop(phase: Path) -> None:
         """Let a phase that is complete be one that was stopped."""

@@ -53,8 +53,7 @@ def options_of(
 def what_becomes_of(member: StudyRun, is_to_do: bool) -> str:
     """Return in words whether a run is computed, and from where."""
     if not is_to_do:
-        ended = "complete" if member.status == Status.SUCCESS else "failed before"
-        return f"{ended}, and not repeated; --overwrite repeats it"
+        return "complete, and not repeated; --overwrite repeats it"
     size = member.size
     about = f", {span(size.least, size.seconds)}" if size.seconds else ""
     if member.run.restarts:
@@ -93,6 +92,8 @@ def scenes_of(best: Path) -> dict[str, Path]:
 def compute_band(runs: dict[str, StudyRun], options: argparse.Namespace) -> None:
     """Compute what is missing, one core each. Raises RunError where the program refuses
     a run."""
+    for member in runs.values():
+        member.run.is_of_user, member.run.overwrites = True, options.overwrite
     to_do = survey(list(runs.values()), options.overwrite, asks_all=True)
     for member in to_do:
         if member.refusal:
@@ -156,7 +157,7 @@ class Chain:
         """words: the scene, and options of the program; entries: those in effect;
         error_bar: of the scene."""
         own = options_of(words[1:], ENTRY, ["--output-directory"])
-        self.given, self.again = own.set, bool(own.overwrite)
+        self.given, self.again, self.restarts = own.set, own.overwrite, own.restart
         self.scene, self.entries = Path(words[0]).resolve(), entries
         self.ranks, self.error_bar = ranks, error_bar
         place = own.output_directory or entries["Output/Directory"]
@@ -168,6 +169,7 @@ class Chain:
         """Return a run with further entries."""
         entries = {**self.given, **more}
         run = Run(self.scene, entries, directory, ranks=self.ranks or 1)
+        run.is_of_user, run.overwrites = True, self.again
         return StudyRun("run:", name, run, {"ranks": self.ranks} if self.ranks else {})
 
     def refuse_way(self) -> None:
@@ -200,7 +202,7 @@ class Chain:
             if number > 1:
                 member = self.phase(number, member.run.directory)
             again = self.again and (number > 1 or not has_scene)
-            is_new = compute(member, again, reporting)
+            is_new = compute(member, again, self.restarts and number == 1, reporting)
             if number == 1 and self.directory.is_dir():
                 text = ", ".join(phase.text for phase in self.phases)
                 disk.write(self.directory / phases.LIST, f"{text}\n")
@@ -223,11 +225,15 @@ class Chain:
         return status
 
 
-def compute(member: StudyRun, again: bool, reporting: Reporting) -> bool:
-    """Compute a run unless it is complete, from its checkpoint if it has one; return
-    whether that was done."""
+def compute(
+    member: StudyRun, again: bool, restarts: bool, reporting: Reporting
+) -> bool:
+    """Compute a run unless it is complete, from its checkpoint if it has one that is of
+    the same run, or if it restarts; return whether that was done."""
     to_do = survey([member], again, resumes=True)
-    words = "" if to_do else f": {what_becomes_of(member, False)}"
+    member.run.restarts |= restarts and member.run.has_checkpoint
+    is_said = restarts or not to_do
+    words = f": {what_becomes_of(member, bool(to_do))}" if is_said else ""
     print(f"run: {member.name}{words}", flush=True)
     if to_do:
         try:
