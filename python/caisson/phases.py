@@ -88,10 +88,9 @@ def layer_with(is_undrained: bool, entries: Mapping[str, str]) -> int:
     for i in range(1, int(entries.get("Soil/Number of layers", "1")) + 1):
         law = entries.get(f"Soil/Layer {i}/Law", "")
         friction = entries.get(f"Soil/Layer {i}/Friction angle", "30")
-        has_none = law == "Mohr-Coulomb" and not friction.strip(
-            "0."
-        )  # may be a formula
-        if (law == "NGI-ADP" or has_none) == is_undrained:
+        has_none = not friction.strip("0.")  # which may be an expression
+        has_clay = law == "NGI-ADP" or (law == "Mohr-Coulomb" and has_none)
+        if has_clay == is_undrained:
             return i
     return 0
 
