@@ -94,6 +94,9 @@ class Ends(Scene):
             self.assertEqual(not said, is_steady)
             ratio = D / 3600 / (k * 1.35 * 20e6 / WATER)
             self.assertIn("" if is_steady else f"vD/c_v is {ratio:.2g} at 1 m/h", said)
+            run = self.scene(CLAY, {**layer, "top_depth_m": 3.0})
+            run.summary["entries"]["Water/Level"] = "seepage"
+            self.assertEqual(run_review.review_of(run), ())
 
 
 if __name__ == "__main__":

@@ -236,10 +236,11 @@ def unsteady_flow(run: Results) -> str:
     for number, layer in enumerate(run.scene.get("layers", []), 1):
         names = "permeability_m_s", "youngs_modulus_Pa", "friction_angle_deg"
         k, modulus, angle = (float(layer.get(name) or 0) for name in names)
-        if float(layer.get("top_depth_m") or 0) < (run.planned or 0) and angle > 0:
-            c_v = k * P_WAVE * modulus / WATER
-            ratio = USUAL_RATE * diameter / c_v if c_v > 0 else 0.0
-            found[int(layer.get("layer", number))] = ratio
+        if float(layer.get("top_depth_m") or 0) >= (run.planned or 0) or angle <= 0:
+            break  # below clay no water flows
+        c_v = k * P_WAVE * modulus / WATER
+        ratio = USUAL_RATE * diameter / c_v if c_v > 0 else 0.0
+        found[int(layer.get("layer", number))] = ratio
     number, most = max(found.items(), key=lambda x: x[1], default=(0, 0.0))
     return say("unsteady", number, most) if most > UNSTEADY else ""
 
