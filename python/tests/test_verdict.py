@@ -13,7 +13,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 import caisson.report as report
 from caisson import evaluation
 from caisson.plot.charts import GRAY
-from caisson.report import content, verdict
+from caisson.report import content, page, verdict
 from caisson.verdict import installation, outcome, run_review
 from caisson.results import Results
 
@@ -175,6 +175,29 @@ class Verdicts(WithPage):
         text = verdict.verdict_of(Results(self.path)).text
         parts = "tip 2.25 MN, friction inside 1.13 MN, outside 1.13 MN."
         self.assertEqual(text, f"Jacked to 4.5 m: 4.5 MN, of which {parts}")
+
+    def test_jacked_with_flow(self) -> None:
+        """No suction acts on a body without a weight, and none is compared."""
+        run = self.run_of(scene={**SCENE, "submerged_weight_N": 0.0}, entries=PUMP)
+        self.assertRegex(verdict.verdict_of(run).text, "^Jacked to 4.5 m: 4.5 MN")
+        found = outcome.whole_way(run)
+        assert found is not None
+        self.assertEqual((len(found.required), found.limits), (0, {}))
+        verdict.keep(run)
+        known = json.loads((self.path / "verdict.json").read_text("utf-8"))
+        self.assertEqual(list(known), ["verdict", "uncertainty"])
+        self.assertEqual(len(known["uncertainty"]), 1)  # of the force
+
+    def test_stopped_on_its_way_out(self) -> None:
+        """A retrieval has come to where it is, and not to where it began."""
+        self.run_of(status="stopped")
+        rows = {k: v[::-1] for k, v in Results(self.path).history.items()}
+        rows["time_s"] = rows["time_s"][::-1]
+        write_columns(self.path / "history.csv", {k: v[:300] for k, v in rows.items()})
+        run = Results(self.path)
+        depth = run.history["penetration_m"][-1]
+        self.assertIn(f"Stopped at {depth:g} m", page.incomplete_of(run))
+        self.assertLess(depth, 2)
 
     def test_jacked_beyond_the_lid(self) -> None:
         """The lid touches the soil once in passing, and bears on it from 4.2 m on."""

@@ -155,8 +155,8 @@ def uncertainty_of(members: Members, column: str, at: np.ndarray) -> Uncertainty
     """Return the uncertainty of a column at depths [n] (m), with the parts that are
     known at all of them; None where the best run has no such value."""
     best = members[BEST]
-    has_area = column != SUCTION or "diameter_m" in best.scene
-    if column not in best.history or not has_area or best.by_hand:
+    sucks = bool(best.weight) and "diameter_m" in best.scene
+    if column not in best.history or best.by_hand or (column == SUCTION and not sucks):
         return None
     values = values_of(best, column, at)
     if not np.isfinite(values).all():
