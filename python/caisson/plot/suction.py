@@ -14,7 +14,7 @@ from caisson.plot import charts
 from caisson.plot.charts import BLUE, CAPTIONS, RED, bars, line
 from caisson.plot.small import fade, in_units, legend_below, over_depth, with_note
 from caisson.results import Results
-from caisson.template import say, say_rows
+from caisson.template import number, say, say_rows
 from caisson.verdict import suction_methods as methods, theory
 from caisson.verdict.installation import Installation, Rate, installation_of
 from caisson.verdict.outcome import depth_of, feasible_to
@@ -91,7 +91,7 @@ def draw_heave(axes: Axes, run: Results, found: Installation | None) -> None:
         last = np.flatnonzero(depth <= feasible_to(run))[-1]
         flow = 3600 * history["seepage_flow_m3_s"][last]
         place = run.shown.depth(depth[last])
-        text = f"seepage into the plug at {place}: {float(f'{flow:.2g}'):g} m³/h"
+        text = f"seepage into the plug at {place}: {number(flow, 2)} m³/h"
         axes.text(0.04, 0.03, text, transform=axes.transAxes, fontsize=8, bbox=WHITE)
     axes.set_xlabel("heave of the plug (m)")
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from caisson import template
 from caisson.results import Results, Table
-from caisson.table import digits
 from caisson.units import WATER
 
 say = partial(template.say, Path(__file__).with_name("words.jinja"))
@@ -81,7 +80,7 @@ def kinetic_share(history: Table, start: float) -> KineticShare | None:
 
 def percent(share: float) -> str:
     """Return a share in percent, with two digits."""
-    return f"{float(digits(100 * share, 2)):g} %"
+    return f"{template.number(100 * share, 2)} %"
 
 
 def tip_of(run: Results) -> dict[str, Any]:
