@@ -20,6 +20,7 @@ from caisson.report.phases import rows_of
 from caisson.results import Results
 from caisson.runner import Run, RunError
 from caisson.runs import StudyRun, survey
+from caisson.verdict import outcome
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
@@ -200,6 +201,24 @@ class Page(WithPage):
         said = verdict.keep(Results(self.path))
         self.assertIn("retrieval takes an overpressure of up to 59.8 kPa", said)
         self.assertTrue((self.path / verdict.NAME).is_file())
+
+    def test_after_suction_that_ends(self) -> None:
+        """A phase begins where the run before it ended, however far suction comes: its
+        verdict says so, and that of the next one. No run follows a later one."""
+        pump = {"Water/Largest suction": "20000"}
+        every = {**SUMMARY, "status": "stopped", "written": "2026-01-01"}
+        leave_run(self.path, {**every, "entries": pump})
+        end, reason = outcome.end_of(Results(self.path)) or (0.0, "")
+        self.assertLess(end, 4.5)
+        before = self.path
+        for day, is_after in ((2, True), (3, True), (1, False)):
+            entries = {"Installation/Directory": str(before)}
+            before = self.path / f"day_{day}"
+            told = {"entries": entries, "written": f"2026-01-0{day}"}
+            leave_run(before, {**every, **told})
+            said = verdict.verdict_of(Results(before)).text
+            begin = f"The installation before this run is feasible to {end:.3g} m only"
+            self.assertEqual(said.startswith(f"{begin} ({reason})."), is_after, said)
 
     def test_older_than_its_scene(self) -> None:
         """A phase does not count whose scene was computed again after it."""

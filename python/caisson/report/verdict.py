@@ -77,7 +77,12 @@ def verdict_of(run: Results) -> Verdict:
     """Return the verdict on a run, or on a scene by hand methods, in so many words; an
     empty one where nothing goes in or out."""
     found = said_of(run)
-    return found._replace(text=say("by_hand", found.text)) if run.by_hand else found
+    if run.by_hand:
+        return found._replace(text=say("by_hand", found.text))
+    if found.text and (ended := outcome.end_before(run)):
+        words = say("after_end", run.shown, *ended)
+        return found._replace(text=f"{words} {found.text}")
+    return found
 
 
 def said_of(run: Results) -> Verdict:

@@ -7,13 +7,14 @@ has behind it belongs to a plug that is lifted, or to a pump that nobody has: it
 in no card, maximum or margin. All follows from history.csv and run.json of the program.
 """
 import functools
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from caisson import curves, evaluation
 from caisson.evaluation import DEPTH, GRADIENT, ROOM, SUCTION, TOTAL, Way, is_pull
-from caisson.results import Results
+from caisson.results import Results, ResultsError
 from caisson.verdict import installation, limits
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.limits import BOILING, COMPUTED, PIPING
@@ -90,6 +91,20 @@ def depth_of(run: Results) -> float | None:
     """Return the depth (m) where suction ends in a run, None where it does not."""
     found = end_of(run)
     return found[0] if found else None
+
+
+def end_before(run: Results) -> tuple[float, str] | None:
+    """Return the depth (m) where suction ends in an installation after which a run
+    begins, and why; None where it does not, or where that is not there any more."""
+    folder = run.entry("Installation/Directory").strip()
+    before = Results(Path(folder))
+    times = [str(x.known.get("written", "")) for x in (before, run)] if folder else []
+    if not folder or not times[0] < times[1]:
+        return None
+    try:
+        return end_of(before) or end_before(before)
+    except ResultsError:
+        return None
 
 
 def feasible_to(run: Results) -> float:
