@@ -96,10 +96,12 @@ def depth_of(run: Results) -> float | None:
 def end_before(run: Results) -> tuple[float, str] | None:
     """Return the depth (m) where suction ends in an installation after which a run
     begins, and why; None where it does not, or where that is not there any more."""
-    folder = run.entry("Installation/Directory").strip()
+    if not (folder := run.entry("Installation/Directory").strip()):
+        return None
     before = Results(Path(folder))
-    times = [str(x.known.get("written", "")) for x in (before, run)] if folder else []
-    if not folder or not times[0] < times[1]:
+    times = [str(x.known.get("written", "")) for x in (before, run)]
+    sizes = [x.scene.get("diameter_m") for x in (before, run)]
+    if times[0] >= times[1] or sizes[0] != sizes[1]:
         return None
     try:
         return end_of(before) or end_before(before)
