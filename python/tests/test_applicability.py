@@ -223,6 +223,19 @@ class Applicability(unittest.TestCase):
         a, b = [theory.answers_to(s, 2)[0] for s in (old, self.site(LAYER))]
         np.testing.assert_array_equal(a.band("tip"), b.band("tip"))
 
+    def test_walls_of_layers(self) -> None:
+        """A layer may have the friction of the walls, and the body none, in all of the
+        methods that have it."""
+        own = {**LAYER, "wall_friction_angle_deg": 20}
+        bare = {f"{side}_wall_friction_angle_deg": 0 for side in ("inner", "outer")}
+        site = self.site(own)
+        smooth = site._replace(scene={**site.scene, **bare})
+        for a, b in zip(*(theory.answers_to(s, 2) for s in (smooth, self.site(LAYER)))):
+            for part in theory.PARTS if a.forces else ():
+                np.testing.assert_allclose(a.band(part), b.band(part))
+        found = theory.wall_angles_at(smooth, "inner", np.array([0.0, 2.0]))
+        np.testing.assert_array_equal(found, [20, 20])
+
     def test_end_of_the_cone_test(self) -> None:
         """It ends at 10 m."""
         site = self.site(LAYER)

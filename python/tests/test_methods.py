@@ -85,6 +85,22 @@ class ByHand(unittest.TestCase):
             self.assertAlmostEqual(found.outer_friction / wall / 6, 1, 4)
             self.assertAlmostEqual(found.inner_friction / wall / 5.8, 1, 4)
 
+    def test_senders_randolph_in_layers(self) -> None:
+        """Layers with a friction angle of the walls of their own, in the place of that
+        of the skirt: q_c grows by the depth, so that 2 of 4 m have 1/4 of the force
+        above a first row at the mudline."""
+        linear = cone.Profile([0.0, 10.0], [0.0, 20e6])
+        rough = senders_randolph.method(SKIRT, linear).forces(4, "low")
+        bare = cone.Skirt(6, 0.1, 0, 0)
+        for skirt, walls, shares in (
+            (bare, [(0.0, 20.0)], (1, 1)),
+            (bare, [(0.0, 20.0), (2.0, None)], (1 / 4, 1 / 4)),
+            (SKIRT, [(0.0, 0.0), (2.0, None)], (3 / 4, 3 / 4)),
+        ):
+            found = senders_randolph.method(skirt, linear, walls).forces(4, "low")
+            self.assertAlmostEqual(found.tip, rough.tip)
+            np.testing.assert_allclose(np.divide(found[1:], rough[1:]), shares)
+
     def test_senders_randolph_has_two_walls(self) -> None:
         """A smooth wall has no friction, and the tip does not feel it."""
         smooth = senders_randolph.method(cone.Skirt(6, 0.1, 0, 20), LINEAR)

@@ -106,6 +106,11 @@ class Uncertainties(WithPage):
         assert found is not None
         self.assertAlmostEqual(found.high[0] / 1e6, 3 + hypot(1.5, 0.36), places=4)
         self.assertEqual(found.parts[1].source, "rings of tubes")
+        layers = [{"wall_friction_angle_deg": 29.0}, {"top_depth_m": 2.0}]
+        for own, is_steel in ((layers, True), (layers[1:], False)):
+            scene = {**SCENE, **walls, "layers": own}
+            run = self.leave_band(summary={**SUMMARY, "scene": scene})
+            self.assertEqual(uncertainty.has_steel(run), is_steel)
 
     def test_a_run_that_has_hardly_begun(self) -> None:
         """It says nothing of the ground."""

@@ -19,6 +19,7 @@ quote them, and have not been checked against it.
 
 What suction takes from these forces: suction_installation.
 """
+from collections.abc import Sequence
 from math import radians, sqrt, tan
 
 from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
@@ -34,14 +35,23 @@ def wall_coefficient(skirt: Skirt, case: str, angle: float) -> float:
     return WALL[case] * area_ratio**0.3 * tan(radians(angle))
 
 
-def method(skirt: Skirt, profile: Profile) -> ConeMethod:
-    """Return the method for sand, whose layers follow from q_c."""
-    k = {
-        case: Coefficients(
-            TIP,
-            wall_coefficient(skirt, case, skirt.inner_friction_angle),
-            wall_coefficient(skirt, case, skirt.outer_friction_angle),
-        )
-        for case in CASES
-    }
-    return ConeMethod(CASES, skirt, profile, [Layer(0.0, k)])
+def coefficients(skirt: Skirt, case: str, own: float | None) -> Coefficients:
+    """Return k_p and k_f of both walls in sand with its own friction angle of the walls
+    (degrees), None where it is that of the skirt."""
+    walls = skirt.inner_friction_angle, skirt.outer_friction_angle
+    angles = walls if own is None else (own, own)
+    return Coefficients(TIP, *(wall_coefficient(skirt, case, x) for x in angles))
+
+
+def method(
+    skirt: Skirt,
+    profile: Profile,
+    walls: Sequence[tuple[float, float | None]] = ((0.0, None),),
+) -> ConeMethod:
+    """Return the method for sand, whose strength follows from q_c. walls: the tops of
+    the layers (m) from the mudline down, and their own friction angle of the walls."""
+    layers = [
+        Layer(top, {case: coefficients(skirt, case, own) for case in CASES})
+        for top, own in walls
+    ]
+    return ConeMethod(CASES, skirt, profile, layers)

@@ -15,6 +15,7 @@ from caisson.plot.small import in_units
 from caisson.results import Results, Table
 from caisson import disk
 from caisson.shown import Units
+from caisson.verdict import theory
 
 # part of the name of a column: its label, empty where that depends on the soil, and
 # what stands beside it
@@ -46,11 +47,11 @@ def draw_panel(
     walls: Table,
     times: np.ndarray,
     column: str,
-    beside: tuple[float, str],
+    beside: tuple[np.ndarray, str],
     shown: Units,
 ) -> None:
-    """Draw a column over depth at times, and a multiple of the horizontal stress at
-    rest with its label."""
+    """Draw a column over depth at times, and a multiple [n_rows] of the horizontal
+    stress at rest with its label."""
     factor, label = beside
     for time, share in zip(times, np.linspace(0.85, 0, len(times))):
         rows = walls["time_s"] == time
@@ -58,7 +59,7 @@ def draw_panel(
         style = {"color": colormaps["viridis"](share), "label": name}
         axes.plot(walls[column][rows] / 1e3, walls["depth_m"][rows], **style)
     # the rows of the last time, which are the deepest in an installation
-    stress = factor * walls["horizontal_stress_at_rest_Pa"][rows] / 1e3
+    stress = (factor * walls["horizontal_stress_at_rest_Pa"])[rows] / 1e3
     axes.plot(stress, walls["depth_m"][rows], label=label, **AT_REST)
     axes.grid(color="0.9")
 
@@ -70,13 +71,15 @@ def draw(path: Path, run: Results) -> Path | None:
     if not names:
         return None
     times = shown_times(walls, run.scene.get("frame_penetrations_m") or ())
-    figure = Figure(figsize=(PAGE, 4.8), layout="constrained")
+    figure, site = Figure(figsize=(PAGE, 4.8), layout="constrained"), theory.site_of(run)
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         label = label or fields.stress_in_words(run.scene, "normal")
         for panel, name in zip(row, names):
-            angle = run.scene.get(f"{name}_wall_friction_angle_deg", np.nan)
-            factor = 1.0 if stress == "normal_stress" else np.tan(np.radians(angle))
+            factor = np.ones(len(walls["depth_m"]))
+            if stress == "shear_stress":
+                angles = theory.wall_angles_at(site, name, walls["depth_m"])
+                factor = np.tan(np.radians(angles))
             column = f"{name}_{stress}_Pa"
             draw_panel(panel, walls, times, column, (factor, beside), run.shown)
             panel.set_xlabel(f"{label} (kPa)")

@@ -29,6 +29,7 @@ Of = TypeVar("Of")
 SENTENCES = Path(__file__).with_name("words.jinja")
 # The law whose strength is one friction angle; run.json names the law of a layer.
 MOHR_COULOMB = "Mohr-Coulomb"
+OF_WALLS = "wall_friction_angle_deg"  # in a layer in the place of that of the body
 ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
@@ -131,7 +132,7 @@ def layer_of(entry: Scene, number: int) -> Layer:
         unit_weight=float(entry["submerged_unit_weight_N_m3"]),
         friction_angle=float(entry["friction_angle_deg"]),
         lateral_stress_ratio=float(entry["K0"]),
-        wall_friction_angle=entry.get("wall_friction_angle_deg"),
+        wall_friction_angle=entry.get(OF_WALLS),
         permeability=float(entry.get("permeability_m_s") or 0),
     )
 
@@ -148,9 +149,9 @@ def skirt_of(site: Site) -> Skirt:
         raise NotApplicable("there is no run.json, which a run leaves at its end")
     if not is_caisson(scene):
         raise NotApplicable("the body is no caisson")
-    both, frictions = scene.get("wall_friction_angle_deg"), list[float]()
+    both, frictions = scene.get(OF_WALLS), list[float]()
     for side in ("inner", "outer"):
-        angle = scene.get(f"{side}_wall_friction_angle_deg", both)
+        angle = scene.get(f"{side}_{OF_WALLS}", both)
         if angle is None:
             raise NotApplicable(
                 f"run.json does not have the friction of the {side} wall"
@@ -158,6 +159,16 @@ def skirt_of(site: Site) -> Skirt:
         frictions.append(float(angle))
     sizes = [float(scene[name]) for name in SIZES]
     return Skirt(sizes[0], sizes[1], frictions[0], frictions[1], ledges_of(scene))
+
+
+def wall_angles_at(site: Site, side: str, depth: np.ndarray) -> np.ndarray:
+    """Return the friction angle of the "inner" or "outer" wall at depths [n] (m) in the
+    layers there (degrees); nan where none is known."""
+    of_body = site.scene.get(f"{side}_{OF_WALLS}", np.nan)
+    layers = [layer for _, layer in site.layers(np.inf)]
+    tops = [top_of(layer) for layer in layers]
+    angles = np.array([layer.get(OF_WALLS, of_body) for layer in layers], dtype=float)
+    return angles[np.maximum(np.searchsorted(tops, depth, "right") - 1, 0)]
 
 
 def assumptions_of(scene: Scene) -> Assumptions:
@@ -271,6 +282,15 @@ def dnv_of(site: Site, deepest: float) -> Method:
     return dnv.method(skirt, cone_of(site, deepest), soils)
 
 
+def senders_of(site: Site, deepest: float) -> Method:
+    """Return Senders and Randolph for a site, where layers may have a friction angle of
+    the walls of their own. Raises NotApplicable."""
+    skirt = skirt_of(site)
+    only(site, deepest, "sand")
+    walls = [(top_of(x), x.get(OF_WALLS)) for _, x in site.layers(deepest)]
+    return senders_randolph.method(skirt, cone_of(site, deepest), walls)
+
+
 OfSite = Callable[["Site", float], Method]  # layers down to a depth (m)
 
 
@@ -369,11 +389,11 @@ def from_cone(name: str, key: str, color: str, module: Any) -> Description:
 
 
 BYRNE = "Houlsby & Byrne (2005)", "houlsby_byrne", "#2166ac"
-SENDERS = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
+RANDOLPH = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
 METHODS = (
     Description(*BYRNE, HoulsbyByrne.cases, houlsby_byrne_of, (UNDISTURBED,)),
     Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of),
-    from_cone(*SENDERS, senders_randolph),
+    Description(*RANDOLPH, senders_randolph.CASES, senders_of),
     from_cone("ISO 19901-4 (unified)", "unified", "#c51b7d", unified),
     from_cone("Andersen et al. (2008)", "andersen", "#7b3294", andersen),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),

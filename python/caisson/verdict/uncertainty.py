@@ -24,6 +24,7 @@ from caisson.verdict.installation import Rate, around_tops, bounds_of, error_ask
 from caisson.verdict.installation import has_begun, installation_of, plug_area
 from caisson.verdict.limits import rounded_down
 from caisson.verdict.outcome import feasible_to, reached
+from caisson.verdict.theory import site_of, wall_angles_at
 
 # shares of the force: a model caisson in sand beside its tests, and the scatter of the
 # ring of jacked tubes over a cone, in which the computed ratio lies
@@ -120,8 +121,9 @@ def of_ground(
 
 def has_steel(run: Results) -> bool:
     """Return whether a wall has friction, and not the adhesion of clay alone."""
-    sides = ("inner", "outer")
-    return any(run.scene.get(f"{side}_wall_friction_angle_deg") for side in sides)
+    depth, site = run.history[DEPTH], site_of(run)
+    angles = [wall_angles_at(site, side, depth) for side in ("inner", "outer")]
+    return bool((np.nan_to_num(angles) > 0).any())
 
 
 def of_steel(run: Results, column: str, at: np.ndarray) -> np.ndarray:
