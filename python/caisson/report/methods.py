@@ -324,12 +324,13 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     ) -> list[str]:
         plain = [max(float(x) - weight, 0.0) / area for x in forces]
         rests = [0.0 if float(x) < 1e-3 * depth else x for x in rests]
+        is_known = bool(np.isfinite(plain).all())
         return [
             name,
             pair(rests, "m", f"below {shown.place(depth)}"),
             pair([x / 1e3 for x in forces], "kN", ""),
             pair(plain, "kPa", ""),
-            pair([x / 1e3 for x in needs], "kPa", NO_ANSWER),
+            pair([x / 1e3 for x in needs], "kPa", NO_ANSWER if is_known else ""),
         ]
 
     rows = list[list[str]]()
@@ -348,7 +349,9 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     name = "best: the mean" if run.by_hand else "computed"
     rows.append(cells(name, rest, own, here.required * 1e3))
     heads = map(shown.named, OVERVIEW)
-    note = say(SENTENCES, "overview", bool(run.by_hand), bool(run.ledges))
+    top = theory.above_clay(site, depth) if run.by_hand else 0.0
+    clay = shown.place(top) if 0 < top < depth else ""
+    note = say(SENTENCES, "overview", bool(run.by_hand), clay, bool(run.ledges))
     return {"heads": [*heads], "rows": rows, "note": note, "place": shown.place(depth)}
 
 

@@ -3,11 +3,12 @@
 
 The program makes one step of the scene, so that run.json has the body and the layers as
 it reads them. The columns of history.csv follow from the methods of design: in sand
-Houlsby & Byrne, DNV and Senders & Randolph, in ground with clay the strength of clay
-(with DNV in its sand). The best estimate of each force is the mean of both cases of all
-of them; low and high are the forces of the least and of the largest case, in soil of
-low and of high resistance. The unified method, which is for piles long after driving,
-and Andersen et al., whose range is a scatter, stand beside them only.
+Houlsby & Byrne, DNV and Senders & Randolph, from the first clay on the strength of clay
+(with DNV in sand below it), where walls keep the friction of the sand above. The best
+estimate of each force is the mean of both cases of all of them; low and high are the
+forces of the least and of the largest case, in soil of low and of high resistance. The
+unified method, which is for piles long after driving, and Andersen et al., whose range
+is a scatter, stand beside them only.
 
 Suction s bears what the weight W does not. While the tip is in sand above any clay, it
 takes from tip Q and inner friction F_i what Senders & Randolph say, else nothing:
@@ -169,19 +170,34 @@ class ByHand(Results):
 
     def forces_at(self, depth: np.ndarray) -> dict[str, np.ndarray]:
         """Return the forces of jacking at embedments [n] (m), by part (N). What applies
-        is decided by the layers down to the end."""
-        answers = answers_of(self.site, np.append(depth, self.end))
-        if not answers:
-            every = theory.answers_of(self.site, np.array([self.end]))
-            cone, why = self.site.cone, theory.reasons_in_words(every)
-            if cone is not None and cone.depth[-1] < self.end:
-                why = (
-                    f"no hand method knows the sand below {cone.depth[-1]:g} m, where"
-                    " the cone test ends: set a Time/End penetration above it"
-                )
-            raise ResultsError(why)
-        found = forces_of(answers, self.estimate)
-        return {part: values[:-1] for part, values in found.items()}
+        is decided by the layers down to the first clay, and below it to the end."""
+        top, n = self.sand_end, len(depth)
+        every = answers_of(self.site, np.concatenate([depth, [top, self.end]]))
+        if not every:
+            raise ResultsError(self.why_not())
+        found = forces_of(every, self.estimate)
+        sand = answers_of(self.site, np.append(np.minimum(depth, top), top))
+        if not 0 < top < self.end or not sand:
+            return {part: values[:n] for part, values in found.items()}
+        above, is_above = forces_of(sand, self.estimate), depth <= top
+        for part in theory.PARTS[:3]:
+            below = found[part][:n]
+            if part != "tip":
+                below = below - found[part][n] + above[part][:n]
+            found[part] = np.where(is_above, above[part][:n], below)
+        found["total"] = np.sum([found[part] for part in theory.PARTS[:3]], axis=0)
+        return found
+
+    def why_not(self) -> str:
+        """Return why no method knows the forces."""
+        every = theory.answers_of(self.site, np.array([self.end]))
+        cone = self.site.cone
+        if cone is None or cone.depth[-1] >= self.end:
+            return theory.reasons_in_words(every)
+        return (
+            f"no hand method knows the sand below {cone.depth[-1]:g} m, where the cone"
+            " test ends: set a Time/End penetration above it"
+        )
 
     @functools.cached_property
     def rest(self) -> float | None:
@@ -202,11 +218,13 @@ class ByHand(Results):
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
         critical, piping = suction_methods.flow_above_clay(self.site, depth)
         found = suction_of(forces, self.weight, area, critical)
-        if self.estimate != HIGH or self.byrne is None or self.sand_end < self.end:
+        if self.estimate != HIGH or self.byrne is None:
             return found
         case = self.byrne, suction_methods.HIGH, self.weight
-        most = np.array([suction_methods.by_byrne(*case, float(h)) for h in depth])
-        return np.maximum(found, np.where(np.isnan(most), piping, most))
+        for i in np.flatnonzero(depth <= self.sand_end):
+            most = suction_methods.by_byrne(*case, float(depth[i]))
+            found[i] = max(found[i], piping[i] if np.isnan(most) else most)
+        return found
 
     def heave_at(self, depth: np.ndarray) -> np.ndarray:
         """Return the heave of the plug [n] (m), by the wall that goes into it."""
