@@ -19,6 +19,7 @@ from caisson.report import before, low_and_high, methods, page, verdict
 from caisson.results import Results, ResultsError
 from caisson.runner import FAILS
 from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
+from caisson.verdict import theory
 from caisson.verdict.installation import Rate
 
 D, T, LENGTH, END = 8.0, 0.04, 9.0, 8.0
@@ -336,19 +337,32 @@ class Sand(Scene):
         self.assertEqual(self.row(run, "best")[1], f"{mean / 1e3:.0f}")
 
     def test_what_does_not_count(self) -> None:
-        """A test that ends above the tip, and an assumed cone beside a model."""
+        """An assumed cone beside a model."""
+        run = self.scene(SAND, cone=False)
+        for depth, n in ((0.5, 1), (8.0, 3)):
+            found = by_hand.answers_of(run.site, np.array([depth]))
+            self.assertEqual(len(found), n)
+
+    def test_a_cone_test_that_ends_early(self) -> None:
+        """It goes on as sand of the same density: by the share that its last half meter
+        has of what is assumed there. In a layer that begins below it, it does not."""
         run = self.scene(SAND, weight=1.25e6)
         rows = "depth_m,qc_MPa\n0,2\n6,2\n"
         (self.path / "cone.csv").write_text(rows, encoding="utf-8")
         run = by_hand.ByHand(run.directory)
-        names = [x.name for x in by_hand.answers_of(run.site, np.array([8.0]))]
-        self.assertEqual(names, ["Houlsby & Byrne (2005)"])
-        run = self.scene(SAND, cone=False)
-        (self.path / "cone.csv").unlink()
-        run = by_hand.ByHand(run.directory)
-        for depth, n in ((0.5, 1), (8.0, 3)):
-            found = by_hand.answers_of(run.site, np.array([depth]))
-            self.assertEqual(len(found), n)
+        found = theory.cone_of(run.site, END)
+        assumed = theory.assumed_cone_of(run.site, END, False)
+        share = QC / np.mean([assumed.at(z) for z in np.linspace(5.5, 6.0, 51)])
+        for z in (6.1, 7.0, END):
+            self.assertAlmostEqual(found.at(z) / assumed.at(z) / share, 1, places=3)
+        self.assertEqual((found.at(6.0), found.at(3.0)), (QC, QC))
+        names = [x.name for x in by_hand.answers_of(run.site, np.array([END]))]
+        self.assertEqual([theory.ASSUMED_CONE in x for x in names], [False, True, True])
+        self.assertIn("Below 6 m, where the cone test ends, its", self.text(run))
+        run = self.scene(SAND, {**SAND, "top_depth_m": 7.0}, weight=1.25e6)
+        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
+        with self.assertRaisesRegex(ResultsError, "below 6 m, where the cone test end"):
+            by_hand.ByHand(run.directory).columns_at(np.array([2.0]))
 
 
 class Layered(Scene):

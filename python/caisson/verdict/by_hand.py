@@ -66,15 +66,16 @@ def step(scene: Path, directory: Path, seconds: float = 0.0) -> None:
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> list[theory.Answer]:
     """Return the methods that count, with their forces of jacking at embedments [n]
-    (m); none that ends above the deepest of them, as a cone test may, nor by an assumed
-    cone where that would not be deep, as beside a model."""
+    (m): none where the cone test of one of them ends above the deepest. An assumed cone
+    does not count where it would not be deep, as beside a model."""
     known = [theory.answer_of(theory.OF_CLAY, site, depth)]
     if not known[0].forces:
         methods = [method for method in theory.METHODS if method.key in IN_SAND]
         found = [theory.answer_of(method, site, depth) for method in methods]
-        shallow = depth.max() < DEEP
+        shallow = site.cone is None and depth.max() < DEEP
         known = [x for x in found if x.forces and not (x.assumed and shallow)]
-    return [x for x in known if np.isfinite(x.band("total")).all()]
+    is_known = all(np.isfinite(x.band("total")).all() for x in known)
+    return known if is_known else []
 
 
 def forces_of(answers: list[theory.Answer], estimate: str) -> dict[str, np.ndarray]:

@@ -34,6 +34,7 @@ ANISOTROPIC = "NGI-ADP"  # cohesion_Pa is its strength in direct simple shear
 SIZES = ("diameter_m", "wall_thickness_m")
 PARTS = ("tip", "inner friction", "outer friction", "total")
 ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
+CONTINUED = 0.5  # m, at the end of a cone test
 IN_SAND = ", DNV in sand"
 # in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 LOWER_BOUND = "undisturbed ground (K0), a lower bound"
@@ -235,11 +236,39 @@ def only(site: Site, deepest: float, soil: str) -> None:
 CONE_NEEDED = "a cone test is needed (--cpt FILE)"
 
 
+@functools.lru_cache(maxsize=32)
+def continued(cone: Profile, assumed: Profile) -> Profile:
+    """Return a cone test that goes on below its end as an assumed one, of which it has
+    the share there that it has over its last CONTINUED (m)."""
+    end = float(cone.depth[-1])
+    begin = max(end - CONTINUED, 0.0)
+    last, of_assumed = (x.integral(end) - x.integral(begin) for x in (cone, assumed))
+    if not of_assumed > 0:  # as in clay
+        return cone
+    below = assumed.depth > end
+    values = last / of_assumed * assumed.resistance[below]
+    found = Profile(
+        [*cone.depth, *assumed.depth[below]], [*cone.resistance, *values.tolist()]
+    )
+    found.assumed = say(SENTENCES, "continued", end)
+    return found
+
+
 def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
-    """Return the cone test or, without one, what is assumed for sand down to a depth
-    (m). with_clay: none is needed there. Raises NotApplicable."""
-    if site.cone is not None:
-        return site.cone
+    """Return the cone test, which goes on in the layer where it ends; without one what
+    is assumed for sand down to a depth (m). with_clay: none is needed there. Raises
+    NotApplicable."""
+    if (cone := site.cone) is None:
+        return assumed_cone_of(site, deepest, with_clay)
+    end = float(cone.depth[-1])
+    if end < deepest - 1e-9 and site.layers(end) == site.layers(deepest):
+        with suppress(NotApplicable):
+            return continued(cone, assumed_cone_of(site, deepest, with_clay))
+    return cone
+
+
+def assumed_cone_of(site: Site, deepest: float, with_clay: bool) -> Profile:
+    """Return what is assumed for sand down to a depth (m). Raises NotApplicable."""
     sands = list[Sand]()
     try:
         for i, entry, soil in layers_with_soils(site, deepest):
@@ -508,11 +537,10 @@ def about_cone(site: Site, deepest: float) -> str:
     """Return a sentence where the cone test ends above an embedment (m), or what a
     cone resistance that is assumed rests on; with the friction angle of sand whose
     strength follows from its density."""
-    assumed, end, angles = "", None, list[float]()
-    if site.cone is None:
-        answers = answers_of(site, np.array([deepest]))
-        assumed = next((a.assumed for a in answers if a.assumed), "")
-    elif site.cone.depth[-1] < deepest - 1e-9:
+    end, angles = None, list[float]()
+    answers = answers_of(site, np.array([deepest]))
+    assumed = next((a.assumed for a in answers if a.assumed), "")
+    if not assumed and site.cone and site.cone.depth[-1] < deepest - 1e-9:
         end = float(site.cone.depth[-1])
     if any(e.get("law") in BY_DENSITY for _, e in site.layers(deepest)):
         with suppress(NotApplicable):
