@@ -225,15 +225,18 @@ def medians(pull: np.ndarray) -> np.ndarray:
 
 
 class Pull(NamedTuple):
-    """A way up: the row before it, and the medians of the pull over its rows."""
+    """A way up: the row before it, the pull of its rows, and the medians over it."""
 
     begin: int
+    pull: np.ndarray
     medians: np.ndarray
 
     @property
     def most(self) -> int:
-        """The row of the largest pull."""
-        return self.begin + 1 + int(np.argmax(self.medians))
+        """The row that has the largest median, the nearest one to where that is."""
+        center = int(np.argmax(self.medians))
+        rows = np.flatnonzero(self.pull == self.medians[center])
+        return self.begin + 1 + int(rows[np.argmin(np.abs(rows - center))])
 
 
 def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:
@@ -241,8 +244,9 @@ def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:
     rises = np.concatenate([[False], np.diff(depth) < 0, [False]])
     ends = np.flatnonzero(np.diff(rises.astype(int)))
     return [
-        Pull(int(begin), medians(pull[begin + 1 : end + 1]))
+        Pull(int(begin), way, medians(way))
         for begin, end in zip(ends[::2], ends[1::2])
+        for way in [pull[begin + 1 : end + 1]]
     ]
 
 

@@ -224,6 +224,14 @@ class Governing(WithPage):
             rings.append(limits.rings_counted(run, at))
         plain, stepped, weak, stiff = found
         self.assertEqual((weak, rings[:2]), (plain, [(0, 0), (0, 0)]))
+        below = {**thin, **step, "wall_step_1_thickness_m": 0.02}
+        below["wall_step_1_above_tip_m"] = 1.5  # 6 and 3.5 m below the lid buckle
+        fixed, at = {"Design/Fixity depth over diameter": "0.1"}, np.array([2.0, 4.5])
+        thick, mixed, slim = (
+            limits.limits_of(self.run_of(x, fixed), at)[limits.SHELL]
+            for x in ({"wall_thickness_m": 0.02}, below, thin)
+        )
+        np.testing.assert_allclose(mixed, [slim[0], thick[1]], rtol=0.02)
         self.assertAlmostEqual(stepped / plain, 1, delta=0.01)
         self.assertEqual(rings[2], (1, 0))
         self.assertGreater(stiff, 1.2 * plain)

@@ -10,7 +10,7 @@ from unittest import mock
 
 import numpy as np
 
-from caisson import curves
+from caisson import curves, evaluation
 from caisson.design import retrieval, suction_installation as installation
 from caisson.design.clay import Clay, Layer, strength_at
 from caisson.design.cone import Skirt
@@ -224,6 +224,19 @@ class WayUp(unittest.TestCase):
 
 class PullCards(unittest.TestCase):
     """What bears the largest pull."""
+
+    def test_first_row(self) -> None:
+        """The first row of a way up is a mean over the turn of the motion: its forces
+        are not those of the largest pull, which are of one row."""
+        pull_of_rows = np.array([-9.0, 3.0, 11.0, 11.5, 10.0, 9.0, 9.2, 9.1, 8.8])
+        parts = {f"{part}_N": -pull_of_rows for part in ("outer_friction", "tip_force")}
+        zero = np.zeros(len(pull_of_rows))
+        depth = 5.0 - 0.1 * np.arange(len(pull_of_rows))
+        history = {"total_force_N": -pull_of_rows, "inner_friction_N": zero, **parts}
+        found = evaluation.largest_pull({**history, "penetration_m": depth})
+        self.assertEqual(found["pull_N"], found["outer_friction_N"])
+        self.assertGreaterEqual(found["pull_N"], 10.0)
+        self.assertLess(found["pull_N"], 11.5)
 
     def test_water(self) -> None:
         """It bears a part of a pull on a sealed lid. That which pushes a body out bears

@@ -58,6 +58,9 @@ class Remedies(WithPage):
         words = "about 1.8 MN in all instead of 1 MN"
         self.assertEqual(rows["weight in water"], words)
         self.assertEqual(rows["pump"], "a pump for 30 kPa instead of 20 kPa")
+        double = {"Water/Largest suction": "40e3", "Design/Factor on pump": "2"}
+        rows_of_double = self.rows(self.run_of(entries=double))
+        self.assertEqual(rows_of_double["pump"], "a pump for 60 kPa instead of 40 kPa")
         self.assertIn("at 3.5 m: a skirt of 3.77 m leaves 0.10 m", rows["stop earlier"])
         self.assertIn("end a run at 3.43 m", rows["cycles of force"])
 

@@ -64,7 +64,8 @@ def outward(
 
 
 def hoop(wall: Wall) -> float:
-    """Return the overpressure (Pa) at which the wall yields."""
+    """Return the overpressure (Pa) at which the wall yields where it is thinnest."""
+    wall = wall.at(0.0)
     return wall.yield_strength * wall.thickness / wall.radius / MATERIAL_FACTOR
 
 

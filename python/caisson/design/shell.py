@@ -81,7 +81,8 @@ class Ring(NamedTuple):
 class Wall(NamedTuple):
     """The steel wall of a caisson: outer diameter, thickness and length (m), and the
     steel (Pa). fixity: depth of fixity over the diameter; rings: spacing (m) of those
-    that are known to suffice; stiffeners: others, from the lid down."""
+    that are known to suffice; stiffeners: others, from the lid down; parts: of a wall
+    with steps where each begins below the lid, and its thickness (m)."""
 
     diameter: float
     thickness: float
@@ -91,6 +92,7 @@ class Wall(NamedTuple):
     fixity: float
     rings: float = inf
     stiffeners: tuple[Ring, ...] = ()
+    parts: tuple[tuple[float, float], ...] = ()
 
     @property
     def radius(self) -> float:
@@ -110,6 +112,13 @@ class Wall(NamedTuple):
         """Return the length that buckles at an embedment (m), from the lid down."""
         fixed = min(self.fixity * self.diameter, h)
         return min(self.free_length(h) + fixed, self.rings)
+
+    def at(self, h: float) -> "Wall":
+        """Return it as thick as where it is thinnest in the part that buckles at an
+        embedment (m), or that may be between rings of a spacing."""
+        length = self.buckling_length(h) if self.rings == inf else self.length
+        within = [thickness for begin, thickness in self.parts if begin < length]
+        return self._replace(thickness=min(within, default=self.thickness))
 
     def stiffeners_at(self, h: float) -> list[Ring]:
         """Return those in the part that buckles at an embedment (m); none beside rings
@@ -254,6 +263,7 @@ def limits_at(
     """Return the suction (Pa) at an embedment (m) at which the unity check is 1 under
     factored loads, 0 where it is under the weight alone: without stiffeners and, where
     there are any, between them."""
+    wall = wall.at(h)
     yields = wall.yield_strength * wall.thickness / wall.radius
     most, found = 2 * (yields / factor + abs(more)), []
     for check in (check_at, check_between)[: 1 + bool(wall.stiffeners_at(h))]:

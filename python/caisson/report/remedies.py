@@ -171,8 +171,9 @@ class Planned:
             ratio = np.where(np.isfinite(self.piping), piping / self.piping, 1.0)
             found[limits.COMPUTED] = found[limits.COMPUTED] * ratio
         if limits.SHELL in same and (wall := limits.wall_of(self.run)) is not None:
-            thickness = wall.thickness * sizes.wall / self.sizes.wall
-            wall = wall._replace(diameter=sizes.diameter, thickness=thickness)
+            share = sizes.wall / self.sizes.wall
+            parts = tuple((begin, share * thickness) for begin, thickness in wall.parts)
+            wall = wall._replace(diameter=sizes.diameter, parts=parts)
             more = shell.beyond_suction(self.pressures, wall, list(self.at))
             borne = 1e3 * np.minimum(sizes.weight, self.resists(sizes)["total"])
             buckles = [
@@ -280,8 +281,8 @@ def size_of(planned: Planned, name: str) -> Size:
 
 
 class Pump(NamedTuple):
-    """The suction that is needed, the limit (kPa) of the present pump or, if that
-    stops any pump, of another limit, and the name of this."""
+    """What is needed and the present pump (kPa) or, if another limit stops any pump,
+    the suction that is needed, that limit, and its name."""
 
     needed: float
     limit: float
@@ -296,8 +297,11 @@ def pump_of(planned: Planned) -> Pump | None:
         shares = {k: np.nan_to_num(planned.required / x) for k, x in others.items()}
     name = max(shares, key=lambda x: float(shares[x].max()), default="")
     if not name or shares[name].max() < 1:
-        most = float(planned.required.max())
-        return None if pump == inf else Pump(rounded_up(most), float(pump))
+        if pump == inf:
+            return None
+        factor = planned.found.factors[limits.PUMP]
+        most = factor * float(planned.required.max())
+        return Pump(rounded_up(most), factor * float(pump))
     i = int(shares[name].argmax())
     needed, least = float(planned.required[i]), float(others[name][i])
     return Pump(needed, least, planned.found.named(name))

@@ -142,15 +142,16 @@ def sources_of(run: Results, names: Collection[str]) -> list[tuple[str, float, s
 
 
 def wall_of(run: Results) -> shell.Wall | None:
-    """Return the steel wall of a caisson, as thick as where it is thinnest, with its
-    rings as flat bars; None where the run does not know it."""
+    """Return the steel wall of a caisson, with its rings as flat bars; None where the
+    run does not know it."""
     sizes = ("diameter_m", "wall_thickness_m", "skirt_length_m")
     known = [run.scene.get(name) for name in sizes]
     if None in known:
         return None
     outer, thickness, length = (float(x or 0) for x in known)
-    steps = parts_of_wall(run.scene, "wall_step", "thickness")
-    thinnest = min([thickness, *(step for (step,) in steps)])
+    steps = parts_of_wall(run.scene, "wall_step", "above_tip", "thickness")
+    ends = [*(length - begin for begin, _ in steps), 0.0]
+    parts = tuple(zip(ends, [thickness, *(step for _, step in steps)]))
     strength, modulus, fixity, spacing = (number_of(run, name) for name in STEEL)
     steel = strength, modulus, fixity, spacing or inf
     rings = parts_of_wall(run.scene, "ring", "above_tip", "width", "height")
@@ -158,7 +159,7 @@ def wall_of(run: Results) -> shell.Wall | None:
         shell.Ring(length - place - height / 2, width, height)
         for place, width, height in reversed(rings)
     )
-    return shell.Wall(outer, thinnest, length, *steel, stiffeners)
+    return shell.Wall(outer, thickness, length, *steel, stiffeners, parts)
 
 
 def critical_by_gradient(run: Results, at: np.ndarray) -> np.ndarray:
