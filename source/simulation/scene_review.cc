@@ -386,7 +386,7 @@ namespace CaissonMPM
     for (unsigned int i = 0; i < parts.soil.n_materials(); ++i)
       {
         const SoilMaterial &soil = parts.soil.material(i);
-        if (!soil.friction_angle || soil.top_depth > depth)
+        if (!soil.friction_angle || soil.top_depth >= depth)
           continue;
         if (weakest == nullptr || margin(soil) < margin(*weakest))
           weakest = &soil;

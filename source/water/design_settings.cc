@@ -76,13 +76,13 @@ namespace CaissonMPM
        "Yield strength of the wall, of which only the check for buckling in "
        "the report knows.",
        "Pa",
-       1.},
+       5e7},
       {"Steel Youngs modulus",
        210e9,
        "Young's modulus of the wall, of which only the check for buckling in "
        "the report knows.",
        "Pa",
-       1.},
+       1e9},
       {"Fixity depth over diameter",
        .5,
        "The wall is held by the soil this many diameters below the mudline: "
