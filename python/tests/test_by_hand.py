@@ -19,7 +19,6 @@ from caisson.report import before, low_and_high, methods, page, verdict
 from caisson.results import Results, ResultsError
 from caisson.runner import FAILS
 from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
-from caisson.verdict import theory
 from caisson.verdict.installation import Rate
 
 D, T, LENGTH, END = 8.0, 0.04, 9.0, 8.0
@@ -343,27 +342,6 @@ class Sand(Scene):
             found = by_hand.answers_of(run.site, np.array([depth]))
             self.assertEqual(len(found), n)
 
-    def test_a_cone_test_that_ends_early(self) -> None:
-        """It goes on as sand of the same density: by the share that its last half meter
-        has of what is assumed there. In a layer that begins below it, it does not."""
-        run = self.scene(SAND, weight=1.25e6)
-        rows = "depth_m,qc_MPa\n0,2\n6,2\n"
-        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
-        run = by_hand.ByHand(run.directory)
-        found = theory.cone_of(run.site, END)
-        assumed = theory.assumed_cone_of(run.site, END, False)
-        share = QC / np.mean([assumed.at(z) for z in np.linspace(5.5, 6.0, 51)])
-        for z in (6.1, 7.0, END):
-            self.assertAlmostEqual(found.at(z) / assumed.at(z) / share, 1, places=3)
-        self.assertEqual((found.at(6.0), found.at(3.0)), (QC, QC))
-        names = [x.name for x in by_hand.answers_of(run.site, np.array([END]))]
-        self.assertEqual([theory.ASSUMED_CONE in x for x in names], [False, True, True])
-        self.assertIn("Below 6 m, where the cone test ends, its", self.text(run))
-        run = self.scene(SAND, {**SAND, "top_depth_m": 7.0}, weight=1.25e6)
-        (self.path / "cone.csv").write_text(rows, encoding="utf-8")
-        with self.assertRaisesRegex(ResultsError, "below 6 m, where the cone test end"):
-            by_hand.ByHand(run.directory).columns_at(np.array([2.0]))
-
 
 class Layered(Scene):
     """3 m of sand over clay."""
@@ -393,22 +371,6 @@ class Layered(Scene):
         )
         text = " ".join(self.text(run).split())
         self.assertIn("Down to the clay, at 3 m, it is that of the methods for", text)
-
-    def test_deeper_into_clay(self) -> None:
-        """Whatever lies below, a caisson gets as far in the sand above, in all of the
-        estimates; high resistance has piping by Houlsby & Byrne there, too."""
-        sand = {**SAND, "friction_angle_deg": 41.0}
-        at = np.array([2.0, 5.0, 7.5])
-        alone = self.scene(sand, weight=5e5)
-        columns = {x: r.by_hand(at) for x, r in alone.estimates.items() if r.by_hand}
-        end = outcome.depth_of(alone)
-        assert end is not None
-        above = self.scene(sand, {**CLAY, "top_depth_m": 7.6}, weight=5e5)
-        for estimate, run in above.estimates.items():
-            assert run.by_hand is not None
-            for name, values in run.by_hand(at).items():
-                np.testing.assert_allclose(values, columns[estimate][name])
-        self.assertAlmostEqual(outcome.depth_of(above) or 0, end, delta=0.02)
 
     def test_piping_above_clay(self) -> None:
         """Piping limits the suction down to the clay, at 10 h / (1 - a) kPa, on the

@@ -92,14 +92,15 @@ class ByHand(unittest.TestCase):
         linear = cone.Profile([0.0, 10.0], [0.0, 20e6])
         rough = senders_randolph.method(SKIRT, linear).forces(4, "low")
         bare = cone.Skirt(6, 0.1, 0, 0)
-        for skirt, walls, shares in (
-            (bare, [(0.0, 20.0)], (1, 1)),
-            (bare, [(0.0, 20.0), (2.0, None)], (1 / 4, 1 / 4)),
-            (SKIRT, [(0.0, 0.0), (2.0, None)], (3 / 4, 3 / 4)),
-        ):
+        every: list[tuple[cone.Skirt, list[tuple[float, float | None]], float]] = [
+            (bare, [(0.0, 20.0)], 1.0),
+            (bare, [(0.0, 20.0), (2.0, None)], 1 / 4),
+            (SKIRT, [(0.0, 0.0), (2.0, None)], 3 / 4),
+        ]
+        for skirt, walls, share in every:
             found = senders_randolph.method(skirt, linear, walls).forces(4, "low")
             self.assertAlmostEqual(found.tip, rough.tip)
-            np.testing.assert_allclose(np.divide(found[1:], rough[1:]), shares)
+            np.testing.assert_allclose(np.divide(found[1:], rough[1:]), share)
 
     def test_senders_randolph_has_two_walls(self) -> None:
         """A smooth wall has no friction, and the tip does not feel it."""

@@ -108,7 +108,7 @@ class Uncertainties(WithPage):
         self.assertEqual(found.parts[1].source, "rings of tubes")
         layers = [{"wall_friction_angle_deg": 29.0}, {"top_depth_m": 2.0}]
         for own, is_steel in ((layers, True), (layers[1:], False)):
-            scene = {**SCENE, **walls, "layers": own}
+            scene: dict[str, Any] = {**SCENE, **walls, "layers": own}
             run = self.leave_band(summary={**SUMMARY, "scene": scene})
             self.assertEqual(uncertainty.has_steel(run), is_steel)
 

@@ -63,7 +63,7 @@ def strength_at(layers: Sequence[Layer], h: float) -> float:
         return own
     if max(ends[k + 1] - ends[k] for k in pair) > THIN:
         return own
-    if abs(layers[j].strength - own) > ALIKE * own:
+    if abs(layers[j].strength - own) > ALIKE * max(layers[j].strength, own):
         return own
     values = [layers[k].strength for k in pair]
     return float(np.interp(h, [middles[k] for k in pair], values))

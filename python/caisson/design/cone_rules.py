@@ -247,12 +247,13 @@ class Readings:
             if key == "fs" and "u2" in self.columns:
                 # as where the cells of a row stand one column beside their heads
                 moved = beyond
+            has_moved = key == "fs" and moved.any()
             some = values[wrong] / 1e3
             self.say(
                 wrong,
                 f"values of the {QUANTITIES[key].name} from {some.min():g} to"
                 f" {some.max():g} kPa, which cannot be meant, left out",
-                "; the pore pressure of these rows, too" if moved.any() else "",
+                "; the pore pressure of these rows, too" if has_moved else "",
             )
             setattr(self, name, np.where(wrong, np.nan, values))
             self.pressure = np.where(moved, np.nan, self.pressure)
