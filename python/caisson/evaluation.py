@@ -39,7 +39,7 @@ FRICTION_RISE = 5e-3  # m, which mobilizes friction
 FURTHER, BEFORE, NEARLY = 0.2, 0.7, 0.93
 ON_LID = 0.01  # of the resistance, from which on the lid bears on the soil
 LEAST_HELD = 0.02  # of all of the way, over which suction must act to count
-LITTLE = 0.1  # of a pull
+LITTLE, JUMP = 0.1, 0.1  # of a pull
 
 
 class Way(NamedTuple):
@@ -233,10 +233,14 @@ class Pull(NamedTuple):
 
     @property
     def most(self) -> int:
-        """The row that has the largest median, the nearest one to where that is."""
+        """The row of the largest median, or the nearest one that bears it where that
+        row bears another pull, as a mean over the turn of the motion does."""
         center = int(np.argmax(self.medians))
-        rows = np.flatnonzero(self.pull == self.medians[center])
-        return self.begin + 1 + int(rows[np.argmin(np.abs(rows - center))])
+        most = self.medians[center]
+        if abs(self.pull[center] - most) > JUMP * most:
+            rows = np.flatnonzero(self.pull == most)
+            center = int(rows[np.argmin(np.abs(rows - center))])
+        return self.begin + 1 + center
 
 
 def pulls_of(pull: np.ndarray, depth: np.ndarray) -> list[Pull]:

@@ -237,8 +237,8 @@ class Applicability(unittest.TestCase):
         np.testing.assert_array_equal(found, [20, 20])
 
     def test_end_of_the_cone_test(self) -> None:
-        """It ends at 10 m, and no method knows a layer that begins below."""
-        site = self.site(LAYER, {**LAYER, "top_depth_m": 10.05})
+        """It ends at 10 m."""
+        site = self.site(LAYER)
         self.assertEqual(theory.about_cone(site, 10), "")
         self.assertIn("ends at 10 m", theory.about_cone(site, 10.1))
         last = theory.answers_of(site, np.array([10.0, 10.1]))[1].band("total")[0]

@@ -75,7 +75,10 @@ def site_of(run: Results) -> Site:
     given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
     flush = run.entry("Rigid body/Flush face")
     scene = {**run.scene, "design_methods": given, FLUSH: flush}
-    return Site(scene, run.entry("Water/Level") or "drained", test)
+    site = Site(scene, run.entry("Water/Level") or "drained", test)
+    if test is None or run.by_hand is None or run.planned is None:
+        return site
+    return site._replace(cone=continued(site, test, run.planned))
 
 
 def top_of(entry: Scene) -> float:
@@ -166,7 +169,7 @@ def wall_angles_at(site: Site, side: str, depth: np.ndarray) -> np.ndarray:
     """Return the friction angle of the "inner" or "outer" wall at depths [n] (m) in the
     layers there (degrees); nan where none is known."""
     of_body = site.scene.get(f"{side}_{OF_WALLS}", np.nan)
-    layers = [layer for _, layer in site.layers(np.inf)]
+    layers = [layer for _, layer in site.layers(np.inf)] or [site.scene]
     tops = [top_of(layer) for layer in layers]
     angles = np.array([layer.get(OF_WALLS, of_body) for layer in layers], dtype=float)
     return angles[np.maximum(np.searchsorted(tops, depth, "right") - 1, 0)]
@@ -236,11 +239,17 @@ def only(site: Site, deepest: float, soil: str) -> None:
 CONE_NEEDED = "a cone test is needed (--cpt FILE)"
 
 
-@functools.lru_cache(maxsize=32)
-def continued(cone: Profile, assumed: Profile) -> Profile:
-    """Return a cone test that goes on below its end as an assumed one, of which it has
-    the share there that it has over its last CONTINUED (m)."""
+def continued(site: Site, cone: Profile, deepest: float) -> Profile:
+    """Return a cone test that goes on below its end, in the layer there, as is assumed
+    for sand, of which it has the share that it has over its last CONTINUED (m)."""
     end = float(cone.depth[-1])
+    numbers = [dict(site.layers(h)).keys() for h in (end, deepest)]
+    if end >= deepest - 1e-9 or numbers[0] != numbers[1]:
+        return cone
+    try:
+        assumed = cone_of(site._replace(cone=None), deepest, with_clay=True)
+    except NotApplicable:
+        return cone
     begin = max(end - CONTINUED, 0.0)
     last, of_assumed = (x.integral(end) - x.integral(begin) for x in (cone, assumed))
     if not of_assumed > 0:  # as in clay
@@ -255,20 +264,10 @@ def continued(cone: Profile, assumed: Profile) -> Profile:
 
 
 def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
-    """Return the cone test, which goes on in the layer where it ends; without one what
-    is assumed for sand down to a depth (m). with_clay: none is needed there. Raises
-    NotApplicable."""
-    if (cone := site.cone) is None:
-        return assumed_cone_of(site, deepest, with_clay)
-    end = float(cone.depth[-1])
-    if end < deepest - 1e-9 and site.layers(end) == site.layers(deepest):
-        with suppress(NotApplicable):
-            return continued(cone, assumed_cone_of(site, deepest, with_clay))
-    return cone
-
-
-def assumed_cone_of(site: Site, deepest: float, with_clay: bool) -> Profile:
-    """Return what is assumed for sand down to a depth (m). Raises NotApplicable."""
+    """Return the cone test or, without one, what is assumed for sand down to a depth
+    (m). with_clay: none is needed there. Raises NotApplicable."""
+    if site.cone is not None:
+        return site.cone
     sands = list[Sand]()
     try:
         for i, entry, soil in layers_with_soils(site, deepest):
