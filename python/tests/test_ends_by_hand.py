@@ -121,6 +121,16 @@ class Ends(Scene):
         needed = (in_clay(end, 8.25) - weight) / AREA
         self.assertAlmostEqual(needed, max(30e3 - WATER * (9 - end), 0), delta=4e3)
 
+    def test_lid_that_stands_out_of_the_sea(self) -> None:
+        """9 m of skirt that rest in clay stand out of 5 m of water, not out of 10 m."""
+        for depth, is_said in ((5.0, True), (10.0, False)):
+            run = self.scene(CLAY)
+            run.summary["entries"]["Water/Water depth"] = str(depth)
+            above = 9.0 - (run.rest or 0.0) - depth
+            said = run_review.review_of(run)
+            self.assertEqual(len(said), is_said)
+            self.assertEqual(f"{above:.2g} m above the sea" in str(said), is_said)
+
     def test_flow_that_is_not_steady(self) -> None:
         """v D / c_v at 1 m/h, with c_v = k 1.35 E / 9810 N/m3, is above 1."""
         for k, is_steady in ((1e-5, True), (1e-7, False)):

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from caisson import template
+from caisson.evaluation import rest_of
 from caisson.results import Results, Table
 from caisson.units import WATER
 
@@ -37,6 +38,7 @@ WORK = {"external_work_J", "kinetic_energy_J", "total_force_N"}
 AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 # m/s, that of a pump; P-wave over Young's modulus, with a Poisson's ratio of 0.3
 USUAL_RATE, P_WAVE = 1.0 / 3600, 1.35
+LEAST_ABOVE = 0.1  # m, of a lid above the sea
 UNSTEADY = 1.0  # v D / c_v, below which flow counts as steady
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 
@@ -244,6 +246,17 @@ def unsteady_flow(run: Results) -> str:
     return say("unsteady", number, most) if most > UNSTEADY else ""
 
 
+def lid_above_sea(run: Results) -> str:
+    """Return a warning of a lid that stands above the sea where suction begins."""
+    length = float(run.scene.get("skirt_length_m") or 0)
+    water = run.entry("Water/Water depth")
+    if not run.weight or not water or run.assumes("Water depth"):
+        return ""
+    rest = rest_of(run) or 0.0
+    above = length - rest - float(water)
+    return say("above_sea", above, rest) if above > LEAST_ABOVE else ""
+
+
 def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
     """Return the warnings without those about what is deeper than the end of suction
     (m)."""
@@ -255,8 +268,8 @@ def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
 def review_of(run: Results) -> tuple[str, ...]:
     """Return what the records of a run that has ended say against it, but of one by an
     earlier version of the program, whose run.json has that itself; and whether its
-    flow is steady."""
-    flow = tuple(filter(None, [unsteady_flow(run)]))
+    flow is steady, and its lid in the water."""
+    flow = tuple(filter(None, [unsteady_flow(run), lid_above_sea(run)]))
     if (
         run.by_hand
         or run.is_running
