@@ -32,7 +32,6 @@ UNDISTURBED_IS = (
 )
 # the critical suctions that a table has
 SHOWN_LIMITS = (suction_methods.PIPING, suction_methods.CRITICAL_SENDERS_RANDOLPH)
-MADE_FOR = {"unified": ", for piles", "andersen": ", a scatter"}
 NOT_IN_MEAN = " *"
 OVERVIEW = (
     *("method", "rests at (m)", "resistance (kN)"),
@@ -255,7 +254,7 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             low, high = reasons.relieved(low, left), reasons.relieved(high, left)
             needed = [float(suctions[column][0]) for column in columns]
             ends = mine, needed[0], needed[1]
-        elif answer.method.bound or left is not None or answer.method.key == "clay":
+        elif answer.method.bound or left is not None or answer.method == theory.OF_CLAY:
             continue
         name = answer.name
         by_cone = reasons.Compared(name, h, what, ends, computed, low, high, left)
@@ -337,7 +336,7 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     for answer in theory.answers_of(site, at):
         if not answer.forces:
             continue
-        name = answer.name + MADE_FOR.get(answer.method.key, "")
+        name = answer.name + answer.method.remark
         mark = "" if not run.by_hand or answer.method in counted else NOT_IN_MEAN
         rests = suction_methods.rests_of(answer.method, site, depth).values()
         cases = needs.get(answer.name, {}).values()

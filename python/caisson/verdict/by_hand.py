@@ -43,7 +43,6 @@ from caisson.runner import query, set_options
 from caisson.units import WATER
 from caisson.verdict import suction_methods, theory
 
-IN_SAND = ("houlsby_byrne", "dnv", "senders_randolph")  # of METHODS
 COLUMNS = dict(
     zip(("tip_force_N", "inner_friction_N", "outer_friction_N"), theory.PARTS)
 )
@@ -70,7 +69,7 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> list[theory.Answer]:
     does not count where it would not be deep, as beside a model."""
     known = [theory.answer_of(theory.OF_CLAY, site, depth)]
     if not known[0].forces:
-        methods = [method for method in theory.METHODS if method.key in IN_SAND]
+        methods = [method for method in theory.METHODS if method.in_mean]
         found = [theory.answer_of(method, site, depth) for method in methods]
         shallow = site.cone is None and depth.max() < DEEP
         known = [x for x in found if x.forces and not (x.assumed and shallow)]

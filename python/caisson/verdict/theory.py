@@ -389,14 +389,19 @@ def soft_below(site: Site, depth: np.ndarray) -> np.ndarray:
 
 
 class Description(NamedTuple):
-    """A method: its name, the beginning of its columns, and its color in pictures."""
+    """A method: its name, the beginning of its columns, and its color in pictures; a
+    case below the range of the others; whether it counts in the mean by hand, and has a
+    required suction as Senders and Randolph; what stands behind its name."""
 
     name: str
     key: str
     color: str
     cases: tuple[str, str]
     of_site: OfSite
-    bound: tuple[str, ...] = ()  # a case below the range of the others
+    bound: tuple[str, ...] = ()
+    in_mean: bool = False
+    has_suction: bool = False
+    remark: str = ""
 
     @property
     def all_cases(self) -> tuple[str, ...]:
@@ -404,7 +409,7 @@ class Description(NamedTuple):
         return (*self.cases, *self.bound)
 
 
-def from_cone(name: str, key: str, color: str, module: Any) -> Description:
+def from_cone(name: str, key: str, color: str, module: Any, **more: Any) -> Description:
     """Return the method from a cone of a module, which is for sand alone."""
 
     def of_site(site: Site, deepest: float) -> Method:
@@ -413,17 +418,19 @@ def from_cone(name: str, key: str, color: str, module: Any) -> Description:
         only(site, deepest, "sand")
         return cast(Method, module.method(skirt, cone_of(site, deepest)))
 
-    return Description(name, key, color, module.CASES, of_site)
+    return Description(name, key, color, module.CASES, of_site, **more)
 
 
 BYRNE = "Houlsby & Byrne (2005)", "houlsby_byrne", "#2166ac"
 RANDOLPH = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
+UNIFIED = "ISO 19901-4 (unified)", "unified", "#c51b7d"
+ANDERSEN = "Andersen et al. (2008)", "andersen", "#7b3294"
 METHODS = (
-    Description(*BYRNE, HoulsbyByrne.cases, houlsby_byrne_of, (UNDISTURBED,)),
-    Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of),
-    Description(*RANDOLPH, senders_randolph.CASES, senders_of),
-    from_cone("ISO 19901-4 (unified)", "unified", "#c51b7d", unified),
-    from_cone("Andersen et al. (2008)", "andersen", "#7b3294", andersen),
+    Description(*BYRNE, HoulsbyByrne.cases, houlsby_byrne_of, (UNDISTURBED,), True),
+    Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of, (), True, True),
+    Description(*RANDOLPH, senders_randolph.CASES, senders_of, (), True, True),
+    from_cone(*UNIFIED, unified, has_suction=True, remark=", for piles"),
+    from_cone(*ANDERSEN, andersen, remark=", a scatter"),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
 )
 OF_CLAY = METHODS[-1]
@@ -520,9 +527,9 @@ def reasons(answers: list[Answer]) -> list[tuple[str, str]]:
     """Return (methods, why they say nothing), each reason once. That the method of clay
     is not for sand, of which another one has an answer, needs no words."""
     found: dict[str, list[str]] = {}
-    is_sand = any(answer.forces for answer in answers if answer.method.key != "clay")
+    is_sand = any(answer.forces for answer in answers if answer.method != OF_CLAY)
     for answer in answers:
-        if answer.why_not and not (is_sand and answer.method.key == "clay"):
+        if answer.why_not and not (is_sand and answer.method == OF_CLAY):
             found.setdefault(answer.why_not, []).append(answer.method.name)
     return [(", ".join(names), reason) for reason, names in found.items()]
 
