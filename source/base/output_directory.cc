@@ -24,22 +24,34 @@ namespace CaissonMPM
   {
     namespace fs = std::filesystem;
 
-    /** The names of all files that a run writes, and nothing else is removed.
-     */
+    /** The names of all files that a run writes. */
     const std::regex result_names(
       R"((points|grid|body)_\d{4,}\.vtu(\.tmp)?|)"
       R"((points|grid|body)(_by_penetration)?\.pvd(\.tmp)?|)"
       R"((history|history_error|error_bar|observations|points|wall)\.csv(\.tmp)?|)"
-      R"((run|verification)\.json(\.tmp)?|)"
-      R"(run\.json\.of_rank_\d+(\.tmp)?|)"
+      R"(run\.json(\.of_rank_\d+)?(\.tmp)?|)"
       R"(checkpoint(\.info(\.tmp)?|-[ab]\.h5))");
+
+    /** Those of them that are large, or parts, and not of use to change. */
+    const std::regex unrecorded_names(
+      R"(\w+_\d{4,}\.vtu|checkpoint.*|.*\.tmp|run\.json\.of_rank_\d+)");
 
     /** The names of what the Python package makes of them without being told
      * where to. This is the only list of them. */
     const std::regex derived_names(
       R"((forces|stress|displacement|void_ratio|pore_pressure|walls)\.png|)"
       R"(suction\.png|(design|jacked|wall_pressure)\.csv|)"
-      R"(report\.(html|pdf)|(run_key|verdict)\.json)");
+      R"(vessel\.(html|png|csv)|log_sheet\.(pdf|csv)|springs\.(png|csv)|)"
+      R"(state(\.csv|\.vtu|_(abaqus|calculix)\.inp)|)"
+      R"(report\.(html|pdf)|(run_key|verdict)\.json|phases\.txt)");
+
+    /** Those of them that are a measured log where somebody has filled them in,
+     * or has chosen the name: then they stay. */
+    const std::regex names_of_logs(R"((vessel|log_sheet)\.csv)");
+
+    /** Where the program and the Python package have a line with checksum, size
+     * and name of each file that they wrote; the last one counts. */
+    const char *const record_name = ".caisson";
 
     std::vector<fs::path>
     files_named(const std::regex &names, const fs::path &directory)
@@ -70,28 +82,33 @@ namespace CaissonMPM
       return directory / ("earlier_" + to_text(number + 1));
     }
 
-    /** Whether somebody has changed a file since the Python package wrote it:
-     * its record has a line with checksum, size and name of each of them. */
-    bool
-    is_changed(const fs::path &file)
+    std::string
+    line_of_record(const fs::path &file)
     {
-      std::ifstream record(file.parent_path() / ".caisson");
-      std::string   line, written;
-      const auto    name = " " + file.filename().string();
-      while (std::getline(record, line))
-        if (line.size() > name.size() &&
-            line.compare(line.size() - name.size(), name.size(), name) == 0)
-          written = line;
-      if (written.empty())
-        return false;
       const std::string content = read_text(file.string());
       const auto        sum     = crc32(0,
                              reinterpret_cast<const Bytef *>(content.data()),
                              content.size());
-      char              expected[64];
-      std::snprintf(
-        expected, sizeof(expected), "%08lx %zu", sum, content.size());
-      return written != expected + name;
+      char              stamp[64];
+      std::snprintf(stamp, sizeof(stamp), "%08lx %zu ", sum, content.size());
+      return stamp + file.filename().string();
+    }
+
+    /** Whether a file is not as the program or the Python package wrote it, as
+     * one is that they have not written. */
+    bool
+    is_of_user(const fs::path &file)
+    {
+      const std::string name = file.filename().string(), end = " " + name;
+      if (std::regex_match(name, unrecorded_names))
+        return false;
+      std::ifstream record(file.parent_path() / record_name);
+      std::string   line, written;
+      while (std::getline(record, line))
+        if (line.size() > end.size() &&
+            line.compare(line.size() - end.size(), end.size(), end) == 0)
+          written = line;
+      return written.empty() || written != line_of_record(file);
     }
 
     /** Move the files into a new directory, all or none. */
@@ -262,41 +279,61 @@ namespace CaissonMPM
            fs::remove(path, error);
   }
 
-  unsigned int
-  OutputDirectory::clear() const
+  OutputDirectory::Room
+  OutputDirectory::make_room(const bool     overwrite,
+                             const MPI_Comm communicator) const
   {
-    auto                  files = files_named(result_names, path_);
-    std::vector<fs::path> changed;
-    for (const fs::path &file : files_named(derived_names, path_))
-      (is_changed(file) ? changed : files).push_back(file);
-    std::error_code error;
-    if (!changed.empty())
-      error = move_to(place_for_earlier_run(path_), changed);
-    unsigned int n_removed = 0;
-    for (const fs::path &file : files)
-      n_removed += fs::remove(file, error) ? 1 : 0;
-    return n_removed;
-  }
-
-  std::string
-  OutputDirectory::put_aside(const MPI_Comm communicator) const
-  {
-    std::string place, reason;
+    Room        room;
+    std::string reason;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       {
-        auto files = files_named(result_names, path_);
-        if (!files.empty())
+        auto                  files = files_named(result_names, path_);
+        std::vector<fs::path> kept, removed;
+        if (overwrite || !files.empty())
+          for (const fs::path &file : files_named(derived_names, path_))
+            files.push_back(file);
+        for (const fs::path &file : files)
           {
-            for (const fs::path &file : files_named(derived_names, path_))
-              files.push_back(file);
-            place = place_for_earlier_run(path_).string();
-            if (const std::error_code error = move_to(place, files))
-              reason =
-                "has results of an earlier run, which cannot be moved to " +
-                place + ": " + error.message();
+            const bool is_log =
+              std::regex_match(file.filename().string(), names_of_logs);
+            const bool is_theirs = (overwrite || is_log) && is_of_user(file);
+            if (!(is_log && is_theirs))
+              (overwrite && !is_theirs ? removed : kept).push_back(file);
           }
+        std::error_code error;
+        if (!kept.empty())
+          {
+            room.place = place_for_earlier_run(path_).string();
+            error      = move_to(room.place, kept);
+          }
+        if (error)
+          reason = "has results of an earlier run, which cannot be moved to " +
+                   room.place + ": " + error.message();
+        else
+          for (const fs::path &file : removed)
+            room.n_removed += fs::remove(file, error) ? 1 : 0;
       }
     refuse(path_, reason, communicator);
-    return place;
+    return room;
+  }
+
+  void
+  OutputDirectory::record(const std::vector<std::string> &names) const
+  {
+    std::string     lines;
+    std::error_code error;
+    const fs::path  place(path_);
+    for (const std::string &name : names)
+      if (fs::is_regular_file(place / name, error))
+        lines += line_of_record(place / name) + "\n";
+    const int file = open((place / record_name).c_str(),
+                          O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC,
+                          0666);
+    if (file < 0)
+      return;             // what has no line is kept
+    flock(file, LOCK_EX); // the Python package changes it, too
+    if (write(file, lines.data(), lines.size()) < 0)
+      lines.clear(); // as without the file
+    close(file);
   }
 } // namespace CaissonMPM

@@ -173,18 +173,19 @@ namespace CaissonMPM
   void
   Recorder::start(const bool overwrite)
   {
-    if (!overwrite)
-      if (const std::string place =
-            locked_directory->put_aside(parts.grid.communicator());
-          !place.empty())
-        console->header(
-          {{"earlier run", "its results have been moved to " + place}});
+    const auto room =
+      locked_directory->make_room(overwrite, parts.grid.communicator());
+    if (room.n_removed > 0)
+      console->header({{"removed",
+                        to_text(room.n_removed) +
+                          " files of an earlier run in " + directory}});
+    if (!room.place.empty())
+      console->header({{overwrite ? "kept" : "earlier run",
+                        (overwrite ? "what is not as the program wrote it has" :
+                                     "its results have") +
+                          (" been moved to " + room.place)}});
     if (parts.grid.is_first_rank())
       {
-        if (const unsigned int n = overwrite ? locked_directory->clear() : 0)
-          console->header(
-            {{"removed",
-              to_text(n) + " files of an earlier run in " + directory}});
         history->create();
         if (observed)
           observed->create();
@@ -402,6 +403,25 @@ namespace CaissonMPM
   {
     parts.totals.bring_to_first_rank(parts.grid.communicator());
     write_run_summary(directory + "/run.json", parts, facts(status));
+    record_files();
+  }
+
+  void
+  Recorder::record_files() const
+  {
+    if (!parts.grid.is_first_rank())
+      return;
+    std::vector<std::string> names = {"history.csv", "run.json"};
+    if (observed)
+      names.emplace_back("observations.csv");
+    if (wall_file)
+      names.emplace_back("wall.csv");
+    if (!observations.checked_quantities().empty())
+      names.emplace_back("points.csv");
+    for (const std::string series : {"points", "grid", "body"})
+      for (const char *const end : {".pvd", "_by_penetration.pvd"})
+        names.push_back(series + end);
+    locked_directory->record(names);
   }
 
   void
@@ -422,6 +442,7 @@ namespace CaissonMPM
         RunFacts facts = own_facts("failed");
         facts.failure  = reason;
         write_early_summary(directory + "/run.json", parts, facts);
+        record_files();
       }
     catch (const std::exception &)
       {

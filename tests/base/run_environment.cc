@@ -85,7 +85,8 @@ test_put_aside()
       {
         std::ofstream("mesh/results/history.csv") << text;
         std::ofstream("mesh/results/report.html") << "drawn";
-        std::cout << '"' << directory.put_aside(MPI_COMM_WORLD) << "\" ";
+        std::cout << '"' << directory.make_room(false, MPI_COMM_WORLD).place
+                  << "\" ";
       }
     std::cout << '\n'
               << read_text("mesh/results/earlier_2/history.csv")
@@ -104,7 +105,13 @@ test_output_directory()
   title("output directory");
   const auto use = [](const std::string &path) {
     const OutputDirectory directory(path, MPI_COMM_WORLD);
-    std::cout << "cleared of " << directory.clear() << " files\n";
+    directory.record({"grid.pvd", "body.pvd", "history.csv"});
+    const auto room = directory.make_room(true, MPI_COMM_WORLD);
+    std::cout << "cleared of " << room.n_removed << " files, the others in \""
+              << room.place << "\"\n";
+    std::filesystem::remove(path + "/.caisson");
+    if (!room.place.empty())
+      std::cout << std::filesystem::remove_all(room.place) - 1 << " of them\n";
   };
   print_error("new", [&]() { use("mesh/results"); });
   for (const std::string name : {"points_0001.vtu",

@@ -18,7 +18,7 @@ from program import (
     summary,
 )
 
-from caisson import plot, report
+from caisson import disk, plot, report
 
 # many minutes, with a row soon
 SLOW = {"Output/Record interval": 1e-4, "Time/Courant number": 1e-3}
@@ -43,16 +43,17 @@ class Directory(ProgramTest):
         self.run_scene("jack", path, entries={"Time/End penetration": 0.5})
 
     def test_old_results_are_not_lost(self) -> None:
-        """They are put aside, and removed only with --overwrite."""
+        """They are put aside; with --overwrite too, where no run has written them."""
         path, history = self.made_directory(), "time_s\n0\n1\n"
         entries = {"Time/End penetration": 0.51, "Output/Terminal": "full"}
-        for number in (1, 2, None):
-            options = [] if number else ["--overwrite"]
+        for number in (1, 2, 3):
+            options = ["--overwrite"] if number == 3 else []
             with self.subTest(number=number):
                 for name in (
                     "points_0009.vtu",
                     "body_0009.vtu",
                     "forces.png",
+                    "vessel.html",
                     "notes.txt",
                 ):
                     (path / name).write_text("old")
@@ -60,38 +61,46 @@ class Directory(ProgramTest):
                 text = self.run_scene("jack", path, SUCCESS, *options, entries=entries)
                 self.assertEqual(list(path.glob("*_0009.vtu")), [])
                 self.assertTrue((path / "notes.txt").exists())
-                if number is None:
-                    self.assertIn("files of an earlier run", text)
-                    self.assertFalse((path / "earlier_3").exists())
-                    self.assertFalse((path / "forces.png").exists())
-                    continue
                 aside = path / f"earlier_{number}"
                 self.assertIn(str(aside), text)
-                names = sorted(file.name for file in aside.iterdir())
-                self.assertIn("forces.png", names)
-                self.assertIn("points_0009.vtu", names)
+                names = {file.name for file in aside.iterdir()}
+                self.assertLessEqual({"vessel.html", "history.csv"}, names)
+                self.assertEqual("points_0009.vtu" in names, number < 3)
+                self.assertEqual("run.json" in names, number == 2)
                 self.assertEqual((aside / "history.csv").read_text(), history)
 
     def test_overwrite(self) -> None:
         """No picture or table of the run before stays beside a new one; those of a user
-        do, and what a user has changed is put aside."""
+        do, as a measured log of any name, and what a user has changed or written with
+        the name of a result is put aside, which a line says."""
         path = self.directory()
-        entries = {"Time/End penetration": 0.501}
+        entries = {"Time/End penetration": 0.501, "Output/Terminal": "full"}
         self.run_scene("jack", path, entries=entries)
         plot.draw(path)
         report.write(path)
         made = {file.name for file in path.iterdir()}
-        (path / "report.html").write_text("mine")
-        derived = {"wall_pressure.csv", "jacked.csv", "verdict.json"}
-        for name in derived | {"mine.png", "vessel.csv"}:
-            (path / name).write_text("old")
-        self.run_scene("jack", path, SUCCESS, "--overwrite", entries=entries)
+        disk.write(path / "log_sheet.csv", "blank")
+        with (path / "history.csv").open("a", encoding="utf-8") as table:
+            table.write("# of interest\n")
+        mine = {"wall_pressure.csv", "jacked.csv", "points.csv", "observations.csv"}
+        mine |= {"phases.txt", "suction.png", "report.html", "vessel.html", "state.csv"}
+        for name in mine | {"mine.png", "vessel.csv", "verification.json"}:
+            (path / name).write_text("mine")
+        text = self.run_scene("jack", path, SUCCESS, "--overwrite", entries=entries)
         stay = {file.name for file in path.iterdir() if file.is_file()}
-        self.assertLessEqual({"mine.png", "vessel.csv"}, stay)
-        self.assertEqual((path / "earlier_1/report.html").read_text(), "mine")
+        self.assertLessEqual({"mine.png", "vessel.csv", "verification.json"}, stay)
+        aside = {file.name: file for file in (path / "earlier_1").iterdir()}
+        self.assertEqual({*aside}, mine | {"history.csv"})
+        self.assertEqual({aside[name].read_text() for name in mine}, {"mine"})
+        self.assertIn("# of interest", aside["history.csv"].read_text())
+        self.assert_words(["files of an earlier run", f"to {path}/earlier_1"], text)
         plotted = {x for x in made if x.endswith((".png", ".html"))} | {"design.csv"}
         self.assertGreater(len(plotted), 3)
-        self.assertEqual(stay & (plotted | derived), set())
+        self.assertEqual(stay & (plotted | mine | {"log_sheet.csv"}), set())
+        (path / "log_sheet.csv").write_text("filled in")
+        self.run_scene("jack", path, entries=entries)
+        self.assertEqual((path / "log_sheet.csv").read_text(), "filled in")
+        self.assertEqual((path / "vessel.csv").read_text(), "mine")
 
     def test_what_is_kept(self) -> None:
         """Frames without a table, and a run stopped before its second row; what
@@ -109,7 +118,8 @@ class Directory(ProgramTest):
             (path / "earlier_5" / "history.csv").read_text(), "time_s\n0\n"
         )
         before = (path / "run.json").read_text()
-        (path / "earlier_999999999").mkdir()
+        for number in (999_999_999,):
+            (path / f"earlier_{number}").mkdir()
         for target in ("nowhere", "earlier_3"):
             link = path / "earlier_1000000000"
             link.unlink(missing_ok=True)

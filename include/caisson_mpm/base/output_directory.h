@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace CaissonMPM
 {
@@ -16,7 +17,7 @@ namespace CaissonMPM
    * which names the run. The system drops the locks when the process ends,
    * however it ends: a file that was left behind locks nothing.
    *
-   * Construction, check() and put_aside() are collective, the rest is not.
+   * Construction, check() and make_room() are collective, the rest is not.
    */
   class OutputDirectory
   {
@@ -47,21 +48,27 @@ namespace CaissonMPM
     static bool
     remove(const std::string &path);
 
-    /** Remove the files of an earlier run, and the pictures and reports of
-     * them; those that were changed since they were written go to a new
-     * subdirectory earlier_N. Returns the number of those removed. For the
-     * first rank. */
-    unsigned int
-    clear() const;
+    struct Room
+    {
+      std::string  place; // of what was moved; empty where nothing was
+      unsigned int n_removed = 0;
+    };
 
     /**
-     * Move these files, and the pictures and reports of them, to a new
-     * subdirectory earlier_1, earlier_2, ... Returns its path on the first
-     * rank, or an empty text where there is nothing to keep. Throws BadInput on
-     * all ranks where the files cannot be moved; then they stay. Collective.
+     * Move the files of an earlier run, and the pictures and reports of them,
+     * to a new subdirectory earlier_1, earlier_2, ...; with @p overwrite remove
+     * those that are as they were written, and move the others. A measured log
+     * stays. Returns what was done on the first rank, and nothing on others.
+     * Throws BadInput on all ranks where the files cannot be moved; then all
+     * stay. Collective.
      */
-    std::string
-    put_aside(const MPI_Comm communicator) const;
+    Room
+    make_room(const bool overwrite, const MPI_Comm communicator) const;
+
+    /** Note how the files of these names are now, by which make_room() knows
+     * that nobody has changed them since. For the first rank. */
+    void
+    record(const std::vector<std::string> &names) const;
 
     const std::string &
     path() const

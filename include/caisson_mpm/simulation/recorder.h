@@ -239,6 +239,10 @@ namespace CaissonMPM
     report_suction(const NamedNumbers &row);
     void
     print_record(const NamedNumbers &row);
+    /** Note how the tables and run.json of a run that ends are; not collective.
+     */
+    void
+    record_files() const;
     /** Write run.json of a run that has not ended; not collective. */
     void
     write_progress(const double fraction_done, const double eta_seconds) const;
