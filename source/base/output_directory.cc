@@ -184,6 +184,9 @@ namespace CaissonMPM
   {
     const bool is_first =
       dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    if (path.empty())
+      throw BadInput("Output/Directory is empty: write the name of a "
+                     "directory, for instance results/my_run.");
     refuse(path, is_first ? obstacle_to(fs::absolute(path)) : "", communicator);
   }
 

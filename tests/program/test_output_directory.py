@@ -42,6 +42,14 @@ class Directory(ProgramTest):
         self.run_scene("jack", path, SUCCESS, "--validate")
         self.run_scene("jack", path, entries={"Time/End penetration": 0.5})
 
+    def test_no_directory(self) -> None:
+        """An empty name is bad input, whoever checks it."""
+        for options in ((), ("--validate",)):
+            text = self.run_program(
+                BAD_INPUT, scene("jack"), *options, entries={"Output/Directory": ""}
+            )
+            self.assert_words(["Output/Directory is empty", "for instance"], text)
+
     def test_old_results_are_not_lost(self) -> None:
         """They are put aside; with --overwrite too, where no run has written them."""
         path, history = self.made_directory(), "time_s\n0\n1\n"
