@@ -44,7 +44,7 @@ DAMAGE = (
 )
 DPI = 150  # of pictures
 MOST = 2**29  # bytes of a text: a device has no end
-EARLIER = re.compile(r"earlier_(\d{1,9})")  # as the program names them
+EARLIER = re.compile(r"earlier_(\d{1,6})")  # as the program names them
 RECORD = ".caisson"  # lines of a checksum, a size and a name; and of an owner
 OWNER = "of "  # begins the line that names the file whose results are there
 

@@ -135,11 +135,14 @@ class Writing(Temporary):
         self.assertEqual(new.read_text(encoding="utf-8"), "y")
 
     def test_keep(self) -> None:
-        """Another file goes to the next earlier_N, the same one stays."""
-        (self.path / "earlier_7").mkdir()
+        """Another file goes to the next earlier_N, the same one stays. A folder of the
+        user with a number that no run comes to does not count."""
+        for name in ("earlier_7", "earlier_999999999"):
+            (self.path / name).mkdir()
         for text in ("x", "x", "y"):
             disk.keep(self.old, text)
-        self.assertEqual(self.names(), ["earlier_7", "earlier_8", "earlier_9", "old"])
+        names = [f"earlier_{number}" for number in (7, 8, 9, 999_999_999)]
+        self.assertEqual(self.names(), [*names, "old"])
         self.assertEqual((self.path / "earlier_8/old").read_text("utf-8"), "mine")
         self.assertEqual((self.path / "earlier_9/old").read_text("utf-8"), "x")
 

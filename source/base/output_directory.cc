@@ -70,7 +70,7 @@ namespace CaissonMPM
     place_for_earlier_run(const fs::path &directory)
     {
       unsigned long    number = 0;
-      const std::regex pattern(R"(earlier_(\d{1,9}))");
+      const std::regex pattern(R"(earlier_(\d{1,6}))");
       std::error_code  error;
       for (const auto &item : fs::directory_iterator(directory, error))
         {

@@ -126,10 +126,10 @@ class Directory(ProgramTest):
             (path / "earlier_5" / "history.csv").read_text(), "time_s\n0\n"
         )
         before = (path / "run.json").read_text()
-        for number in (999_999_999,):
+        for number in (999_999, 999_999_999):  # the latter is no run's
             (path / f"earlier_{number}").mkdir()
         for target in ("nowhere", "earlier_3"):
-            link = path / "earlier_1000000000"
+            link = path / "earlier_1000000"
             link.unlink(missing_ok=True)
             link.symlink_to(target)
             text = self.run_scene("jack", path, BAD_INPUT, entries=short)
