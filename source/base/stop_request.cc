@@ -110,6 +110,18 @@ namespace CaissonMPM
     is_armed = true;
   }
 
+  void
+  StopRequest::refuse_file_of_user(const MPI_Comm communicator) const
+  {
+    std::error_code error;
+    const bool      is_there = !stop_file_path.empty() && stop_file != "stop" &&
+                          std::filesystem::exists(stop_file_path, error);
+    if (dealii::Utilities::MPI::logical_or(is_there, communicator))
+      throw BadInput("Run control/Stop file: " + stop_file_path +
+                     " is there already, and the run would remove it. Remove "
+                     "it yourself, or write another name, for instance stop.");
+  }
+
   std::string
   StopRequest::reason()
   {

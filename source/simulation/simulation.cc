@@ -524,6 +524,7 @@ namespace CaissonMPM
   Simulation::run_to_end(const ParameterOrigins &input)
   {
     stop_request.arm(recorder.output_directory());
+    stop_request.refuse_file_of_user(grid.communicator());
     if (is_restart)
       recorder.resume(overwrites);
     else

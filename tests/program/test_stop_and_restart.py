@@ -232,6 +232,19 @@ class Stop(ProgramTest):
         self.assertEqual(process.wait(), STOPPED, text)
         self.assertFalse((path / "stop").exists(), "the file is left")
 
+    def test_stop_file_of_before(self) -> None:
+        """One named stop ends the run; any other one may be a file of the user."""
+        path = self.made_directory()
+        for name, status in (("notes.txt", BAD_INPUT), ("stop", STOPPED)):
+            for ranks in (1, 2):
+                (path / name).write_text("mine")
+                entries = {"Run control/Stop file": name}
+                text = self.run_scene(
+                    "jack", path, status, entries=entries, ranks=ranks
+                )
+                self.assertEqual((path / name).exists(), status == BAD_INPUT, text)
+        self.assertEqual((path / "notes.txt").read_text(), "mine")
+
     def test_finished_run_is_pushed_deeper(self) -> None:
         """A finished run goes on to a later end, in the same files."""
         whole, path = self.directory("whole"), self.directory("pieces")

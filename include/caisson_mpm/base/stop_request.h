@@ -7,6 +7,8 @@
 
 #include <caisson_mpm/base/section.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -63,6 +65,12 @@ namespace CaissonMPM
      */
     void
     arm(const std::string &output_directory);
+
+    /** Throw BadInput on all ranks where the stop file is there already, as one
+     * of the user; one with the name stop, which nobody else uses, ends the
+     * run. Collective, after arm(). */
+    void
+    refuse_file_of_user(const MPI_Comm communicator) const;
 
     /**
      * Why the run must stop, e.g. "SIGTERM received"; empty while it need
