@@ -6,6 +6,7 @@ import fcntl
 import html
 import io
 import json
+import os
 import re
 import subprocess
 import tempfile
@@ -151,6 +152,16 @@ class Report(WithPage):
             self.assertTrue(text in page, text)
         self.assertNotIn('http-equiv="refresh"', page)
         self.assertNotIn(str(self.path), page)  # the disk of a user is no result
+
+    def test_old_pictures_are_drawn_again(self) -> None:
+        """Those of before a run that went on by --restart; not newer ones."""
+        leave_run(self.path, SUMMARY)
+        (self.path / "forces.png").touch()
+        for at, is_drawn in ((0, True), (2**32, False)):
+            os.utime(self.path / "forces.png", (at, at))
+            with mock.patch("caisson.report.page.plot.draw") as draw:
+                report.write(self.path)
+            self.assertEqual(draw.called, is_drawn)
 
     def test_paper_has_no_defaults(self) -> None:
         """They are folded, and what is not to be printed is not opened for it."""

@@ -46,8 +46,10 @@ CHARTS = ("walls",)  # pictures of lines, not of fields
 
 def pictures_of(run: Results) -> list[dict[str, str]]:
     """Return the run's pictures as data, each with what it shows; drawn where the run
-    has left none."""
-    if not (run.directory / "forces.png").is_file() and not run.is_running:
+    has left none since its last row."""
+    history, drawn = (run.directory / x for x in ("history.csv", "forces.png"))
+    is_old = not drawn.is_file() or drawn.stat().st_mtime < history.stat().st_mtime
+    if is_old and not run.is_running:
         plot.draw(run.directory)
     found = []
     for name, shows in PICTURES.items():
