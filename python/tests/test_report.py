@@ -365,6 +365,7 @@ class Report(WithPage):
         page = report.write(self.path).read_text()
         self.assertIn("ends at 3.5 m", page)
         self.assertNotIn("(cone ASSUMED)", page)
+        self.assertIn("in the folder of the results, cone.csv", page)
 
     def test_computed_over_method(self) -> None:
         """3000 kN at 3 m over 2816 and 6195 kN; 15 kPa required at 3 m."""

@@ -411,7 +411,8 @@ def methods_of(run: Results, end: float | None = None) -> dict[str, Any]:
     if not run.by_hand:
         at_h = theory.answers_of(site, np.array([h]))
         why = [why_of(run, at), *others_of(run, h, at_h)]
-    notes = [theory.about_cone(site, float(at.max())), leaves]
+    kept = say(SENTENCES, "kept_cone") if site.cone and not run.by_hand else ""
+    notes = [kept, theory.about_cone(site, float(at.max())), leaves]
     if answers[0].forces:
         assumed = theory.assumptions_in_words(site.scene)
         notes.insert(0, f"{assumed}; {UNDISTURBED_IS}.")
