@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Words of Installation/Phases, the entries of their runs, and their rows on a page."""
 import contextlib
+import fcntl
 import html
 import io
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from synthetic import write_run
@@ -14,7 +16,7 @@ from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
 from caisson import disk, phases
-from caisson.commands.run_several import phases_asked_for, say_end
+from caisson.commands.run_several import Chain, phases_asked_for, say_end
 from caisson.report import verdict
 from caisson.report.phases import rows_of
 from caisson.results import Results
@@ -244,6 +246,19 @@ class Page(WithPage):
             self.assertEqual([row.folder for row in rows], known)
             words = "not finished yet" if known[0] else "not run yet"
             self.assertTrue(all(row.said.startswith(words) for row in rows))
+
+
+class Taken(unittest.TestCase):
+    """A folder in which another run computes."""
+
+    def test_nothing_is_run_or_drawn(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            entries = {"Output/Directory": name, phases.ENTRY: "rest 1 d"}
+            chain = Chain(["a.prm"], entries, None, None)
+            with (Path(name) / ".lock").open("w", encoding="utf-8") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX)
+                with self.assertRaisesRegex(RunError, "another run computes in"):
+                    chain.main(mock.Mock(), mock.Mock())
 
 
 class RunsOfUser(unittest.TestCase):

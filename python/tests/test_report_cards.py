@@ -355,6 +355,29 @@ class Live(WithPage):
                 time.sleep(0.1)
         self.assertIn("sand &lt;b&gt;", page.read_text(encoding="utf-8"))
 
+    def test_only_a_run_that_wrote_is_drawn(self) -> None:
+        """Not the one of another terminal, where the program refused this one, or where
+        the other one still writes."""
+        words = ["--output-directory", str(self.path)]
+        options = {"ranks": 1, "band": False, "error": None, "budget": None}
+
+        def run(_: list[str]) -> int:
+            leave_run(self.path, SUMMARY)
+            return status
+
+        with (
+            mock.patch.multiple(launch, refuse_missing=mock.Mock(), run_alone=run),
+            mock.patch.object(launch, "entries_of", return_value={}),
+            mock.patch.object(launch, "draw") as draw,
+            (self.path / ".lock").open("w", encoding="utf-8") as lock,
+        ):
+            for status, is_taken in ((0, False), (1, False), (3, False), (0, True)):
+                fcntl.flock(lock, fcntl.LOCK_EX if is_taken else fcntl.LOCK_UN)
+                given = argparse.Namespace(**options, arguments=[*words])
+                draw.reset_mock()
+                self.assertEqual(launch.main(given), status)
+                self.assertEqual(draw.called, status != 1 and not is_taken)
+
     def test_renewed_whatever_it_costs(self) -> None:
         """Each RENEWAL, also where a renewal takes nearly as long, while there are new
         rows."""

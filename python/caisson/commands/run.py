@@ -23,7 +23,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from caisson import needed, ranks
+from caisson import disk, needed, ranks
 from caisson.command_line import Parser
 from caisson.commands import run_several
 from caisson.paths import INSTALLED, PROGRAM, SCENES, scene_or_study, short
@@ -268,6 +268,14 @@ def run_band(arguments: list[str]) -> int:
     return chain.main(try_to_draw, reporting, has_scene=True)
 
 
+def has_written(directory: Path, begin: float) -> bool:
+    """Return whether a run that has ended wrote results since a time (s): it has not
+    where it only answered something, nor where another run still writes there."""
+    history = directory / "history.csv"
+    is_new = history.is_file() and history.stat().st_mtime >= begin
+    return is_new and not disk.is_locked(directory)
+
+
 def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
     refuse_missing(PROGRAM)
@@ -321,8 +329,6 @@ def main(options: argparse.Namespace) -> int:
             " continues from it",
             file=sys.stderr,
         )
-    history = directory / "history.csv" if directory else None
-    # only what this run wrote is drawn: --validate, say, writes nothing
-    if directory and history and history.exists() and history.stat().st_mtime >= begin:
+    if directory and status != Status.BAD_INPUT and has_written(directory, begin):
         try_to_draw(directory, error_bar)
     return status

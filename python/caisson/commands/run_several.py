@@ -218,6 +218,11 @@ class Chain:
         status of the last run. draw: draws a run, with an error bar; reporting: renews
         a page as long as its run goes on; has_scene: that one was computed before, in a
         band, and is not repeated."""
+        if disk.is_locked(self.directory):
+            raise RunError(
+                f"another run computes in {self.directory}; wait for its end, or choose"
+                " another folder with --output-directory"
+            )
         self.refuse_way()
         status = self.make(draw, reporting, has_scene)
         if (self.directory / "history.csv").is_file():
