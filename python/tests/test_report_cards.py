@@ -378,6 +378,17 @@ class Live(WithPage):
                 self.assertEqual(launch.main(given), status)
                 self.assertEqual(draw.called, status != 1 and not is_taken)
 
+    def test_interrupted_drawing(self) -> None:
+        """It is said what makes the page."""
+        said = io.StringIO()
+        with (
+            contextlib.redirect_stderr(said),
+            mock.patch.object(launch, "draw", side_effect=KeyboardInterrupt),
+            self.assertRaises(KeyboardInterrupt),
+        ):
+            launch.try_to_draw(self.path, None)
+        self.assertIn(f"caisson report {self.path}", said.getvalue())
+
     def test_renewed_whatever_it_costs(self) -> None:
         """Each RENEWAL, also where a renewal takes nearly as long, while there are new
         rows."""

@@ -166,6 +166,10 @@ def try_to_draw(directory: Path, error_bar: Path | None) -> None:
     """Draw a run, and say so where that fails."""
     try:
         draw(directory, error_bar)
+    except KeyboardInterrupt:
+        text = f"run: the results are whole; `caisson report {short(directory)}`"
+        print(f"\n{text} makes the page", file=sys.stderr)
+        raise
     except Exception as error:  # whatever it is, the run was good
         print(
             f"run: no pictures of {directory}: {error}; the results are not affected",
