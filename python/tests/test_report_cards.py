@@ -8,6 +8,9 @@ import hashlib
 import html
 import io
 import re
+import signal
+import subprocess
+import sys
 import time
 import unittest
 import unittest.mock
@@ -388,6 +391,20 @@ class Live(WithPage):
         ):
             launch.try_to_draw(self.path, None)
         self.assertIn(f"caisson report {self.path}", said.getvalue())
+
+    def test_signals_are_handed_on(self) -> None:
+        """To the program on one rank, that of the key for quitting, too."""
+        program = "import signal as s; s.pthread_sigmask(s.SIG_BLOCK, {n});"
+        program += "print('on', flush=True); exit(s.sigtimedwait({n}, 60) is None)"
+        python, word = [sys.executable, "-c"], "from caisson.commands import run;"
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+            inner = [*python, program.format(n=f"{{{number:d}}}")]
+            outer = [*python, f"{word} raise SystemExit(run.run_alone({inner!r}))"]
+            with subprocess.Popen(outer, stdout=subprocess.PIPE) as process:
+                assert process.stdout
+                process.stdout.readline()
+                process.send_signal(number)
+            self.assertEqual(process.returncode, 0, number)
 
     def test_renewed_whatever_it_costs(self) -> None:
         """Each RENEWAL, also where a renewal takes nearly as long, while there are new

@@ -222,7 +222,7 @@ def run_alone(command: list[str]) -> int:
     """Run the program on one rank; return its exit status. Ctrl-C reaches it without
     our help; other signals are handed on."""
     process = subprocess.Popen(command, env=environment())
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, lambda caught, _: process.send_signal(caught))
     return wait_for(process)
 
