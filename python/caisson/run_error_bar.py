@@ -88,6 +88,8 @@ def adopt(directory: Path, bar: Path | None = None) -> None:
                 f"the error bar {bar} was computed for other parameters than those of"
                 f" {directory}: compute it with caisson error-bar"
             )
+        if is_of_another(run) and (directory / HISTORY).is_file():
+            disk.remove(directory / HISTORY)
         return
     text = disk.read_text(file, ResultsError)
     columns = bounds_of(run.history, read_table(file))
@@ -101,7 +103,14 @@ def is_of(run: Results, bar: Path) -> bool:
     ResultsError where it cannot be read."""
     text = disk.read_text(bar, ResultsError)
     found = re.search(r"^# fingerprint: (\S+)", text, re.M)
-    return found is not None and found[1] == run.summary.get("fingerprint")
+    return found is not None and found[1] == run.known.get("fingerprint")
+
+
+def is_of_another(run: Results) -> bool:
+    """Return whether a run has the error bar of other parameters, which is not used.
+    Raises ResultsError where it cannot be read."""
+    bar = run.directory / NAME
+    return bar.is_file() and not is_of(run, bar)
 
 
 def changes(bar: Table, q: Quantity, values: np.ndarray, at: np.ndarray) -> Table:
@@ -137,8 +146,8 @@ def bounds_of(history: Table, bar: Table) -> Table:
 
 def at_depths(run: Results, depth: np.ndarray, means: Table) -> Table:
     """Return the bounds of means [n] of a run at depths [n], nan beyond its error bar;
-    empty without one."""
-    if not (run.directory / NAME).is_file():
+    empty without one, and with that of other parameters."""
+    if not (run.directory / NAME).is_file() or is_of_another(run):
         return {}
     bar = read_table(run.directory / NAME)
     found: Table = {}

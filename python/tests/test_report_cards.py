@@ -72,6 +72,16 @@ class Cards(WithPage):
         self.assertIn("suction up to 30 kPa, at most 57 %", page)
         self.assertIn("The error bar reaches to 2 m.", page)
 
+    def test_error_bar_of_another_scene(self) -> None:
+        """It is not used, nor are its bounds; the page says so."""
+        leave_run(self.path, {**SUMMARY, "fingerprint": "beef"})
+        self.leave_bar(4.4, 0.1)
+        (self.path / run_error_bar.HISTORY).write_text("penetration_m\n1\n", "utf-8")
+        page = report.write(self.path).read_text(encoding="utf-8")
+        self.assertIn("suction up to 30 kPa, at most 57 %", page)
+        self.assertIn("computed for other parameters and is not used: remove it", page)
+        self.assertEqual(Results(self.path).error_bounds, {})
+
     def test_best_estimate(self) -> None:
         """The limit of the meshes is 1 kPa below the run, which needs 30 kPa."""
         leave_run(self.path, SUMMARY)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson import template
+from caisson import run_error_bar, template
 from caisson.evaluation import rest_of
 from caisson.results import Results, Table
 from caisson.units import WATER
@@ -268,16 +268,17 @@ def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
 def review_of(run: Results) -> tuple[str, ...]:
     """Return what the records of a run that has ended say against it, but of one by an
     earlier version of the program, whose run.json has that itself; and whether its
-    flow is steady, and its lid in the water."""
-    flow = tuple(filter(None, [unsteady_flow(run), lid_above_sea(run)]))
+    flow is steady, its lid in the water, and its error bar that of another scene."""
+    other_bar = say("other_bar") if run_error_bar.is_of_another(run) else ""
+    of_all = tuple(filter(None, [unsteady_flow(run), lid_above_sea(run), other_bar]))
     if (
         run.by_hand
         or run.is_running
         or "tip" not in run.known
         or "tip_force_N" not in run.history
     ):
-        return flow
-    return *Review(run).warnings(), *flow
+        return of_all
+    return *Review(run).warnings(), *of_all
 
 
 def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:
