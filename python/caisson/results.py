@@ -19,6 +19,7 @@ from caisson.ledges import FLUSH, Ledge, ledges_of
 from caisson.shown import Units, units_of
 
 Table = dict[str, np.ndarray]
+FILES = ("history.csv", "run.json")  # that every run leaves which has succeeded
 
 
 class ResultsError(InputError):
@@ -68,6 +69,27 @@ def read_table(path: Path) -> Table:
     if not rows:
         raise ResultsError(f"{path} has no complete row")
     return Read(path, dict(zip(names, np.array(rows).T)))
+
+
+@functools.lru_cache(maxsize=None)
+def _damage_of(directory: Path, *_: object) -> str:
+    """Return what is wrong with results whose files have these sizes and times."""
+    run = Results(directory)
+    try:
+        _ = run.summary, run.history
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+def damage_of(directory: Path) -> str:
+    """Return why the results of a run that has succeeded cannot be read, "" where they
+    can: history.csv and run.json are there, and whole."""
+    files = [directory / name for name in FILES]
+    if missing := [file for file in files if not file.is_file()]:
+        return f"there is no {missing[0]}"
+    stamps = [(x.st_size, x.st_mtime_ns) for x in map(Path.stat, files)]
+    return _damage_of(directory, *stamps)
 
 
 class Results:

@@ -187,11 +187,11 @@ class Run:
     depends on (the program's file, all entries in effect, the ranks that it asks for,
     but not those that execute() lends it: they change the last digits), the entries
     that it set, the exit status and the times. is_complete() compares the hash, so
-    that a study repeats only what has changed. A directory with this file is the run's
-    own, and its results there are replaced. Elsewhere the program puts earlier results
-    aside, and everywhere those that have finished in a run of the user (is_of_user),
-    who may overwrite them, and who repeats what has failed. Files with other names
-    stay.
+    that a study repeats only what has changed, is gone or damaged. A directory with
+    this file is the run's own, and its results there are replaced. Elsewhere the
+    program puts earlier results aside, and everywhere those that have finished in a run
+    of the user (is_of_user), who may overwrite them, and who repeats what has failed.
+    Files with other names stay.
     """
 
     RECORD = "run_key.json"
@@ -253,6 +253,7 @@ class Run:
         installation."""
         if (
             self.has_checkpoint
+            and not self.left(self.RECORD)  # else it has ended
             and self.completion_record() is None
             and not self.is_before_its_start(self.CHECKPOINT)
         ):
@@ -272,6 +273,18 @@ class Run:
         """The directory of the installation that it goes on from, if it has one."""
         before = self.in_effect.get(self.BEFORE)
         return (WORK / before).resolve() if before else None
+
+    def begins_anew(self, status: Status | None) -> bool:
+        """Let a run of a study that was to go on from its checkpoint begin anew where
+        it has not, by its exit status, as its results are lost; return whether it is to
+        be executed again."""
+        is_refused = status == Status.BAD_INPUT or (
+            status == Status.SUCCESS and self.completion_record() is None
+        )
+        if not (self.restarts and is_refused) or self.is_of_user:
+            return False
+        self.restarts, self.overwrites = False, True
+        return True
 
     def is_before_its_start(self, name: str) -> bool:
         """Return whether a file of results is older than the installation that it goes
@@ -298,10 +311,13 @@ class Run:
 
     def completion_record(self) -> dict[str, Any] | None:
         """Return what a finished run has left: key, entries, status, wall_s and
-        cpu_s. None where there is none, or a broken one."""
-        found = self.left(self.RECORD)
-        keys = {"key", "entries", "status", "wall_s", "cpu_s"}
-        return found if keys <= set(found) else self.record_of_user()
+        cpu_s. None where there is none, or a broken one, or where its results are."""
+        from caisson.results import damage_of  # by numpy, which may be missing
+
+        left, keys = self.left(self.RECORD), "key entries status wall_s cpu_s".split()
+        found = left if set(keys) <= set(left) else self.record_of_user()
+        is_good = found is not None and found["status"] == Status.SUCCESS
+        return None if is_good and damage_of(self.directory) else found
 
     def is_of_another_scene(self) -> bool:
         """Return whether an entry in effect has another value in run.json there: the

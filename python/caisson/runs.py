@@ -22,7 +22,7 @@ from caisson import disk
 from caisson.needed import DASK, sentence
 from caisson.progress import Progress, span
 from caisson.ranks import Size, cores, plan
-from caisson.results import Results
+from caisson.results import Results, damage_of
 from caisson.runner import Run, RunError, Status
 
 # runs for each core above which several ranks gain nothing that matters, and the
@@ -103,9 +103,11 @@ class StudyRun:
         before a change, does not count."""
         record = self.run.completion_record()
         if record is None:
-            if self.trouble is None and not self.log.is_file():
+            is_damaged = self.trouble is None and self.run.left(Run.RECORD)
+            why = damage_of(self.run.directory) if is_damaged else self.trouble
+            if why is None and not self.log.is_file():
                 return NOT_RUN, ""
-            return "no result", self.trouble or self.last_words
+            return "no result", why or self.last_words
         if record.get("entries") != self.run.entry_texts():
             return "out of date", "the entries of the study have changed since"
         if self.run.is_of_another_scene():
@@ -146,6 +148,8 @@ class StudyRun:
             ranks = self.ranks_before or ranks
         try:
             status = self.run.execute(time_limit, ranks)
+            if self.run.begins_anew(status):
+                status = self.run.execute(time_limit, ranks)
         except (RunError, OSError) as error:
             self.trouble = str(error)
             return f"{self.study} {self.name}: {self.trouble}".lstrip()

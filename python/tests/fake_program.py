@@ -58,6 +58,7 @@ def run(entries: dict[str, str], directory: Path, mark: str) -> int:
     rows = [f"{d},{d:.2f},{force(entries, d)}" for d in depths]
     head = "time_s,penetration_m,total_force_N"
     (directory / "history.csv").write_text("\n".join([head, *rows]) + "\n")
+    (directory / "run.json").write_text('{"status": "running"}')  # to need no more
     if breaks_off:
         print("failure: the soil is too strong", file=sys.stderr)
         return 2

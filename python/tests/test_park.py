@@ -17,6 +17,7 @@ from test_log import END, SCENE, WEIGHT, history_of, AREA, BEST, DEPTH
 
 from caisson import needed, runs
 from caisson.commands import park, park_rows
+from caisson.results import Results
 from caisson.runner import Run, RunError
 from caisson.runs import How, StudyRun, make
 
@@ -95,6 +96,30 @@ class Overview(WithRuns):
             row = park.row_of(run, self.path)
         self.assertEqual((row.utilization, row.governed_by), (1, "plug meets the lid"))
         park.draw(self.path / "overview.png", [row])
+
+    def test_damaged_results(self) -> None:
+        """A position without history.csv, or whose numbers cannot be read, gets a row
+        that says so, as the others do."""
+        runs = [self.write(name, 1e9) for name in ("gone", "odd", "good")]
+        (runs[0].run.directory / "history.csv").unlink()
+        numbers = park.with_numbers
+
+        def fail(row: park.Row, run: Results) -> park.Row:
+            if row.position == "odd":
+                raise ValueError("a number")
+            return numbers(row, run)
+
+        with (
+            contextlib.redirect_stdout(io.StringIO()) as said,
+            mock.patch.object(park, "with_numbers", fail),
+        ):
+            self.assertEqual(park.evaluate("p.csv", runs, self.path, 1.0), 1)
+        path = runs[0].run.directory / "history.csv"
+        self.assertIn(
+            f"gone: No result (no result: there is no {path})", said.getvalue()
+        )
+        self.assertIn("odd: No result (ValueError: a number)", said.getvalue())
+        self.assertIn("park: 1 of 3 positions", said.getvalue())
 
     def test_heads(self) -> None:
         for head, found in {

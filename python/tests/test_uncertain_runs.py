@@ -204,6 +204,32 @@ class Commands(WithFiles):
         self.assertEqual(self.calls().count("Friction_angle_30+"), 1)
         self.assertEqual(len(self.calls()), 4)
 
+    def test_damaged_results_are_computed_again(self) -> None:
+        """Those without history.csv, and with a run.json that is no list, from their
+        start, though there is a checkpoint; the evaluation alone says what is wrong."""
+        self.write(PHI + "values = [30, 34]")
+        self.study()
+        for number, name in enumerate(("history.csv", "run.json"), 3):
+            place = self.path / "results/s/Friction_angle_30"
+            (place / "checkpoint.info").touch()
+            (place / name).write_bytes(b"")
+            self.assertIn(str(place / name), self.study("--evaluate")[1])
+            self.assertEqual(self.study()[0], 0)
+            self.assertEqual(self.calls().count("Friction_angle_30"), number - 1)
+            self.assertEqual(len(self.calls()), number)
+
+    def test_a_checkpoint_that_is_of_no_use(self) -> None:
+        """Where the program refuses to go on, or has nothing to do and leaves no
+        results, the run begins anew; that of a user leaves that to him."""
+        for status, is_of_user in ((1, False), (0, False), (1, True), (3, False)):
+            run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
+            run.restarts, run.is_of_user = True, is_of_user
+            with mock.patch.object(run, "execute", return_value=status) as execute:
+                runs.StudyRun("s", "", run).execute(again=True)
+            anew = status != 3 and not is_of_user
+            self.assertEqual(execute.call_count, 1 + anew)
+            self.assertEqual((run.restarts, run.overwrites), (not anew, anew))
+
     def test_a_resumed_run_keeps_its_ranks(self) -> None:
         """Those of its checkpoint, whatever the cores allow now."""
         run = Run(self.path / "s.prm", {}, self.path, program=FAKE_PROGRAM)
@@ -297,6 +323,8 @@ class Edited(WithFiles):
         )
         text.chmod(0o755)
         value.write_text("1")
+        table = {"time_s": np.arange(2.0)}
+        write_run(self.path / "r", table, {})
         for is_complete in (False, True):  # the second one is of the new scene
             run = Run(self.path / "a.prm", {}, self.path / "r", program=text)
             self.assertEqual(run.execute(), 0)

@@ -181,10 +181,13 @@ def row_of(run: StudyRun, folder: Path) -> Row:
     page = run.run.directory / report.NAME
     link = str(page.relative_to(folder.resolve())) if page.is_file() else ""
     name = run.settings["position"]
-    if run.outcome[0] != COMPLETE:
-        said = f"No result ({run.words})."
-        return Row(name, verdict=said, page=link, is_complete=False)
-    return with_numbers(Row(name, page=link), run.results)
+    try:
+        if run.outcome[0] == COMPLETE:
+            return with_numbers(Row(name, page=link), run.results)
+        why = run.words
+    except Exception as error:  # whatever it is, there are other positions
+        why = disk.words_of(error)
+    return Row(name, verdict=f"No result ({why}).", page=link, is_complete=False)
 
 
 def with_numbers(row: Row, run: Results) -> Row:
@@ -282,7 +285,7 @@ def evaluate(title: str, runs: Sequence[StudyRun], folder: Path, minutes: float)
         print(f"{row.position}: {row.verdict}")
     print(f"park: {len(complete)} of {len(rows)} positions in {minutes:.1f} min")
     print(f"next: open {short(folder / PAGE)}")
-    return 0 if len(done) == len(runs) else 1
+    return 0 if (len(done), len(complete)) == (len(runs), len(rows)) else 1
 
 
 def main(options: argparse.Namespace) -> int:
