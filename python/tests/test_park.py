@@ -4,6 +4,7 @@ import contextlib
 import csv
 import io
 import json
+import os
 import sys
 import tempfile
 import unittest
@@ -120,6 +121,22 @@ class Overview(WithRuns):
         )
         self.assertIn("odd: No result (ValueError: a number)", said.getvalue())
         self.assertIn("park: 1 of 3 positions", said.getvalue())
+
+    def test_page_is_renewed(self) -> None:
+        """After a change of the results, also of low resistance."""
+        run = self.write("own", 1e9).run.directory
+        for directory in (run, self.write("own_low", 1e9).run.directory):
+            os.utime(run / "report.html")
+            with mock.patch.object(park, "plot"), mock.patch(
+                "caisson.report.write"
+            ) as new:
+                park.page_of(run)
+                new.assert_not_called()
+                later = (run / "report.html").stat().st_mtime + 1
+                os.utime(directory / "history.csv", (later, later))
+                park.page_of(run)
+                new.assert_called_once_with(run)
+            os.utime(directory / "history.csv", (1, 1))
 
     def test_heads(self) -> None:
         for head, found in {

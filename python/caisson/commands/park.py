@@ -38,7 +38,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import disk, plot, report, study_command
-from caisson.band import BEST, ESTIMATES, member_of
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
 from caisson.commands import park_rows
 from caisson.commands.park_rows import Position
 from caisson.disk import InputError
@@ -161,12 +161,9 @@ class Row(NamedTuple):
 
 
 def page_of(directory: Path) -> str:
-    """Draw the pictures and write the page of a run, if it has none since its end and
-    that of its band; return why there is none, "" where there is."""
-    page = directory / report.NAME
-    records = [member_of(directory, estimate) / Run.RECORD for estimate in ESTIMATES]
-    last = max(record.stat().st_mtime for record in records if record.is_file())
-    if page.is_file() and page.stat().st_mtime >= last:
+    """Draw the pictures and write the page of a run, if it has none as new as its
+    results and those of its band; return why there is none, "" where there is."""
+    if report.is_up_to_date(*(member_of(directory, x) for x in (BEST, LOW, HIGH))):
         return ""
     try:
         plot.draw(directory)

@@ -206,7 +206,9 @@ class Chain:
             if number == 1 and self.directory.is_dir():
                 text = ", ".join(phase.text for phase in self.phases)
                 disk.write(self.directory / phases.LIST, f"{text}\n")
-            if has_results(member) and (is_new or not has_page(member)):
+            if has_results(member) and (
+                is_new or not report.is_up_to_date(member.run.directory)
+            ):
                 draw(member.run.directory, self.error_bar if number == 1 else None)
             if (status := status_of(member)) != Status.SUCCESS:
                 say_end(member)
@@ -254,14 +256,6 @@ def has_results(member: StudyRun) -> bool:
     though its folder may have what another one has left."""
     history = member.run.directory / "history.csv"
     return history.is_file() and (member.is_stopped or member.status is not None)
-
-
-def has_page(member: StudyRun) -> bool:
-    """Return whether the page of a run was written after its end."""
-    page, end = (member.run.directory / x for x in (report.NAME, "run.json"))
-    if not (page.is_file() and end.is_file()):
-        return False
-    return page.stat().st_mtime >= end.stat().st_mtime
 
 
 def say_end(member: StudyRun) -> None:

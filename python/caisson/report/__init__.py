@@ -15,7 +15,7 @@ from caisson import disk, run_error_bar
 from caisson.band import SCENE
 from caisson.command_line import for_each
 from caisson.plot import add_method_arguments, adopt_what_is_beside, draw, keep_methods
-from caisson.results import Results, ResultsError
+from caisson.results import FILES, Results, ResultsError
 
 if TYPE_CHECKING:
     from caisson.verdict.installation import Rate
@@ -37,6 +37,15 @@ def write(directory: Path, rate: float | None = None) -> Path:
     verdict.keep(Results(directory))
     text = page.html(Results(directory), pump)
     return disk.write(directory / NAME, text)
+
+
+def is_up_to_date(directory: Path, *beside: Path) -> bool:
+    """Return whether a run has a page that is as new as its results, and as those of
+    runs beside it."""
+    page = directory / NAME
+    files = [place / name for place in (directory, *beside) for name in FILES]
+    times = [file.stat().st_mtime for file in files if file.is_file()]
+    return page.is_file() and page.stat().st_mtime >= max(times, default=inf)
 
 
 def beside(scene: Path) -> Path:
