@@ -147,23 +147,26 @@ class Vessel(unittest.TestCase):
         boiling = (BEST[300] - WEIGHT) / AREA
         self.write_runs(boiling=boiling)
         self.write_log(BEST, 5.0)
-        found, _, ahead = self.answer()
+        found, bins, ahead = self.answer()
         first, middle, last = words.outcome_of(found, ahead)
         assert first and middle and last
         self.assertLess(first, DEPTH[300])
         self.assertGreater(last, DEPTH[300])
         self.assertAlmostEqual(middle, DEPTH[300], delta=0.15)
-        said = words.of_forecast(found, ahead)
+        said = words.of_forecast(found, bins, ahead)
         self.assertRegex(said, r"refusal between 6.* and 8.* m, most likely at 6\.9 m")
 
     def test_above_the_allowable(self) -> None:
-        """It is said from where on the measured suction was more than allowed."""
+        """It is said from where on the measured suction was more than allowed, and
+        nothing of a refusal where the log ends with that."""
         self.write_runs(boiling=(BEST[300] - WEIGHT) / AREA)
         for last, wanted in ((5.0, "^$"), (8.0, r"from (6\.[7-9]|7|7\.1) m on")):
             self.write_log(BEST, last)
             found, bins, ahead = self.answer()
             said = words.of_allowable(found, bins, ahead.weight)
             self.assertRegex(said, wanted)
+        said = words.of_forecast(found, bins, ahead)
+        self.assertRegex(said, r"^Forecast: already at (7\.9|8) m, where the log")
 
     def test_nine_of_ten(self) -> None:
         """The band of the forecast holds, over all of its way, in nine of ten soils of

@@ -68,10 +68,17 @@ def of_band(expected: Expected, bins: Bins) -> str:
     return say(SENTENCES, "band", expected.run.shown, parts, last)
 
 
+def measured_and_allowable(
+    expected: Expected, bins: Bins, weight: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return both suctions [n] (kPa) at the steps of a log; weight: in kN."""
+    limit = np.interp(bins.depth, expected.depth, expected.allowable)
+    return expected.suction(bins.resistance, weight), limit
+
+
 def of_allowable(expected: Expected, bins: Bins, weight: float) -> str:
     """Return where a measured suction is above the allowable one; weight: in kN."""
-    measured = expected.suction(bins.resistance, weight)
-    limit = np.interp(bins.depth, expected.depth, expected.allowable)
+    measured, limit = measured_and_allowable(expected, bins, weight)
     if (begin := meets(bins.depth, measured, limit)) is None:
         return ""
     i = int(np.nanargmax(measured / limit))
@@ -91,8 +98,12 @@ def extrapolations(expected: Expected, upto: float = np.inf) -> str:
     return say(SENTENCES, "extrapolations", expected.run.shown, parts)
 
 
-def of_forecast(expected: Expected, forecast: Forecast) -> str:
-    """Return how far the caisson goes."""
+def of_forecast(expected: Expected, bins: Bins, forecast: Forecast) -> str:
+    """Return how far the caisson goes, and not where it is refused of a log that ends
+    with more than the allowable suction."""
+    measured, allowable = measured_and_allowable(expected, bins, forecast.weight)
+    if measured[-1] > allowable[-1]:
+        return say(SENTENCES, "is_above", expected.run.shown, float(bins.depth[-1]))
     met = outcome_of(expected, forecast)
     limit = np.interp(forecast.depth, expected.depth, expected.allowable)
     share = float(np.max(forecast.high / limit)) if met.first is None else 0.0
@@ -136,7 +147,7 @@ def of_gauges(log: Log) -> list[str]:
 def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[str]:
     """Return the sentences, that of the forecast first."""
     lines = (
-        of_forecast(expected, forecast),
+        of_forecast(expected, bins, forecast),
         of_allowable(expected, bins, forecast.weight),
         of_band(expected, bins),
         say(SENTENCES, "fit", fit.factor, fit.share[0]),
