@@ -43,7 +43,7 @@ DAMAGE = (
     *(RecursionError, TypeError, ValueError, csv.Error),
 )
 DPI = 150  # of pictures
-MOST = 2**29  # bytes of a text: a device has no end
+MOST = 2**29  # bytes of a file
 EARLIER = re.compile(r"earlier_(\d{1,6})")  # as the program names them
 RECORD = ".caisson"  # lines of a checksum, a size and a name; and of an owner
 OWNER = "of "  # begins the line that names the file whose results are there
@@ -67,6 +67,11 @@ def read_bytes(path: Path, refuse: Refusal = InputError) -> bytes:
     if path not in read_last:
         read_last.append(path)
     note_reading(path)
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise refuse(
+            f"{path} is a device or a pipe: write what it gives into a file, and name"
+            " that"
+        )
     try:
         with open(path, "rb") as file:
             data = file.read(MOST + 1)

@@ -51,9 +51,14 @@ class Reading(Temporary):
             disk.read_text(path)
 
     def test_devices_and_directories(self) -> None:
+        (self.path / "large").write_bytes(bytes(1001))
         with unittest.mock.patch.object(disk, "MOST", 1000):
-            with self.assertRaisesRegex(InputError, "/dev/zero is larger than"):
-                disk.read_text(Path("/dev/zero"))
+            with self.assertRaisesRegex(InputError, "large is larger than"):
+                disk.read_text(self.path / "large")
+        os.mkfifo(self.path / "pipe")
+        for path in (Path("/dev/zero"), self.path / "pipe"):
+            with self.assertRaisesRegex(InputError, f"{path} is a device or a pipe: "):
+                disk.read_text(path)
         with self.assertRaisesRegex(InputError, "cannot be read: Is a directory"):
             disk.read_text(self.path)
         with self.assertRaisesRegex(InputError, "cannot be read: embedded null"):

@@ -471,6 +471,7 @@ class Reading(unittest.TestCase):
         ):
             with self.assertRaisesRegex(InputError, text):
                 self.read(*lines)
+        self.assertRaisesRegex(InputError, "as a table: it is no", self.read, "\0")
 
 
 if __name__ == "__main__":

@@ -224,7 +224,7 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "none.csv cannot be read"):
             cone.read(self.path.parent / "none.csv")
         self.path.write_bytes(b"\xff\xfe\x00")
-        with self.assertRaisesRegex(InputError, "cannot be read as a cone test"):
+        with self.assertRaisesRegex(InputError, "cannot be read as a table"):
             cone.read(self.path)
 
     def test_kept_with_a_run(self) -> None:

@@ -71,7 +71,7 @@ def column_of(head: str) -> tuple[str, str]:
 def cells_of(path: Path) -> list[tuple[int, list[str]]]:
     """Return the rows of a table of text or a workbook, with their numbers. Raises
     InputError."""
-    content = cone_file.content_of(path)
+    content = disk.read_bytes(path)
     if content.startswith(cone_file.ARCHIVE):
         return cone_grid.grid_of_workbook(path, "", True)
     lines = cone_file.lines_of(path, content)

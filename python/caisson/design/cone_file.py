@@ -62,13 +62,6 @@ class Test:
 # ---------------------------------------------------------------- the table
 
 
-def content_of(path: Path) -> bytes:
-    """Return what is in a file. Raises InputError."""
-    if path.is_char_device():
-        raise InputError(f"{path} cannot be read as a cone test: it is a device")
-    return disk.read_bytes(path)
-
-
 def lines_of(path: Path, content: bytes) -> list[str]:
     """Return the printable lines of a text: in UTF-8, or as Western European programs
     write it. Raises InputError."""
@@ -78,8 +71,8 @@ def lines_of(path: Path, content: bytes) -> list[str]:
         )
     if b"\0" in content:
         raise InputError(
-            f"{path} cannot be read as a cone test: it is no text, or in UTF-16; save"
-            " it as CSV in UTF-8"
+            f"{path} cannot be read as a table: it is no text, or in UTF-16; save it as"
+            " CSV in UTF-8"
         )
     try:
         text = content.decode("utf-8-sig")
@@ -180,7 +173,7 @@ def depth_of_water(text: str) -> float | None:
 def read(path: Path, with_friction: bool = True, how: How = How()) -> Test:
     """Return the test of a file. Without friction only depth and q_c are read, and
     nothing else is looked at. Raises InputError, with the row."""
-    table = table_of(path, content_of(path), how)
+    table = table_of(path, disk.read_bytes(path), how)
     above, water = above_of(how.above), depth_of_water(how.zeroed_on_deck)
     with naming(path):
         found = Readings(table, EVERY if with_friction else NEEDED)

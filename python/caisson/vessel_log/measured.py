@@ -143,7 +143,7 @@ def seconds_of(text: str, factor: float) -> float:
 def rows_of(path: Path) -> tuple[Rows, int]:
     """Return the rows of a file, and the place of that with the heads. Raises
     InputError."""
-    content = cone_file.content_of(path)
+    content = disk.read_bytes(path)
     if content.startswith(cone_file.ARCHIVE):
         rows = cone_grid.grid_of_workbook(path, "", True)
     else:
