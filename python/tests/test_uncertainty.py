@@ -76,7 +76,10 @@ class Uncertainties(WithPage):
         ends = {"penetration_m": [0.5, 4.0], "required_suction_below_Pa": [2e3, 2e3]}
         ends["required_suction_above_Pa"] = [3e3, 3e3]
         columns = {name: np.array(column) for name, column in ends.items()}
-        write_columns(run.directory / "error_bar.csv", columns)
+        bar = run.directory / "error_bar.csv"
+        write_columns(bar, columns)
+        mark = f"# fingerprint: {run.summary['fingerprint']}\n"
+        bar.write_text(mark + bar.read_text(encoding="utf-8"), encoding="utf-8")
         found = self.of_suction(Results(run.directory))
         model = MODEL * (15e3 + SCENE["submerged_weight_N"] / AREA)
         self.assertEqual([part.name for part in found.parts], [MESH, GROUND, PROGRAM])
