@@ -108,9 +108,11 @@ class Results:
         """directory: the output directory of the run."""
         self.directory = Path(directory)
         # of a scene before its run, as verdict/by_hand.py has it: its columns at depths
-        # [n] (m), and itself in soil of low, best and high resistance
+        # [n] (m)
         self.by_hand: Callable[[np.ndarray], Table] | None = None
+        # in soil of low, best and high resistance, once caisson.band has looked
         self.estimates: dict[str, "Results"] = {}
+        self.left_out: dict[str, str] = {}  # of these, and why
 
     @functools.cached_property
     def rest(self) -> float | None:
@@ -195,10 +197,14 @@ class Results:
         """run.json; empty where a run has left none yet."""
         return self.summary if (self.directory / "run.json").is_file() else {}
 
+    @property
+    def entries(self) -> dict[str, str]:
+        """The entries in effect, set or default; empty where they are not known."""
+        return {**self.known.get("defaults", {}), **self.known.get("entries", {})}
+
     def entry(self, path: str) -> str:
         """Return an entry in effect, set or default; "" where it is not known."""
-        every = {**self.known.get("defaults", {}), **self.known.get("entries", {})}
-        return str(every.get(path, ""))
+        return str(self.entries.get(path, ""))
 
     def assumes(self, name: str) -> bool:
         """Return whether the scene marks an entry of this name as assumed."""

@@ -337,7 +337,7 @@ class Levelness(WithRun):
             force = 1e6 + AREA * history["required_suction_Pa"]
             history["required_suction_Pa"] = (share * force - 1e6) / AREA
             beside = self.path.with_name(f"own_{name}")
-            leave_run(beside, {**SUMMARY, "scene": SKIRT})
+            leave_run(beside, run.summary)
             write_columns(beside / "history.csv", history)
         level = acceptance.level_of(Results(self.path), found)
         assert level is not None

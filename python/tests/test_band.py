@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 from synthetic import write_columns
-from test_report import SCENE, SUMMARY, WithPage, leave_run
+from test_report import SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson.band import BEST, HIGH, LOW, band_of, member_of
+from caisson.band import BEST, HIGH, LOW, band_of, left_out, member_of
 from caisson.commands import run_several
 from caisson.plot import charts
 from caisson.report import verdict
@@ -197,16 +197,50 @@ class Page(WithPage):
         low = Results(self.path / "soil_low")
         self.assertEqual(list(band_of(low)), [BEST])
 
-    def test_only_of_this_caisson(self) -> None:
-        """Another caisson of that name, and none, leave the page as it is."""
+    def test_only_of_this_scene(self) -> None:
+        """Another caisson of that name counts as none, and the page says so."""
         run = self.leave_band()
-        other = {**SUMMARY, "scene": {**SCENE, "diameter_m": 5.0}}
-        leave_run(member_of(run.directory, HIGH), other)
-        self.assertEqual(list(band_of(run)), [LOW, BEST])
-        leave_run(member_of(run.directory, LOW), other)
+        entry = "Rigid body/Outer diameter"
+        for estimate, size in ((BEST, "10"), (HIGH, "5"), (LOW, "5")):
+            summary = {**SUMMARY, "entries": {**self.PUMP, entry: size}}
+            leave_run(member_of(run.directory, estimate), summary)
         page = report.write(run.directory).read_text(encoding="utf-8")
-        self.assertNotIn("low resistance", page)
-        self.assertEqual(charts.range_of(run, "total_force_N"), None)
+        self.assertNotIn("With low resistance", page)
+        why = f"has another {entry} than the best estimate"
+        self.assertIn(
+            f"The soil of low resistance is left out, as own_low {why}; the soil of"
+            f" high resistance is left out, as own_high {why}: change its scene as"
+            " mine.prm was changed, and then `caisson run --band mine.prm`.",
+            page,
+        )
+        best = Results(run.directory)
+        self.assertEqual(charts.range_of(best, "total_force_N"), None)
+        (why_low, _) = left_out(best).values()
+        self.assertEqual(why_low, f"own_low {why}")
+
+    def test_only_on_its_side(self) -> None:
+        """A high estimate that has less resistance than the best one over a part of the
+        way, as that was changed since, counts as none, and so does a low one with more;
+        the scatter of runs does not count."""
+        less = "own_high has less resistance than the best estimate from 0.5"
+        for factors, words in (
+            ((0.7, 1.0, 0.9), less),
+            ((1.1, 1.0, 1.5), "own_low has more resistance than the best estimate"),
+            ((1.02, 1.0, 0.98), ""),
+        ):
+            self.FACTORS = dict(zip((LOW, BEST, HIGH), factors))
+            found = list(left_out(self.leave_band()).values())
+            self.assertEqual(len(found), bool(words))
+            self.assertIn(words, " ".join(found))
+        run = self.leave_band()
+        history = dict(run.history)
+        history["total_force_N"] = history["total_force_N"] + 1e6 * (
+            history["penetration_m"] > 4
+        )
+        write_columns(run.directory / "history.csv", history)
+        self.assertRegex(
+            left_out(Results(run.directory))[HIGH], "from 3.5[0-9]? m to 4.5 m"
+        )
 
     def test_stopped(self) -> None:
         """A run that was stopped says nothing of its resistance."""

@@ -448,6 +448,22 @@ class Page(Scene):
         members = {"best": run, "high": by_hand.ByHand(other)}
         self.assertNotIn(words, self.text(by_hand.band_of(members)))
 
+    @mock.patch("builtins.print")
+    def test_high_resistance_of_another_soil(self, said: mock.Mock) -> None:
+        """One that has less than the best one is none of the band, nor run with it."""
+        high = self.path / "high"
+        self.scene({**SAND, "friction_angle_deg": 28.0})
+        shutil.copytree(self.path, high)
+        best = by_hand.ByHand(self.scene(SAND).directory, facts={"scene_file": "a.prm"})
+        text = before.page_of({"best": best, "high": by_hand.ByHand(high)})
+        words = (
+            "The soil of high resistance is left out, as a_high.prm has less resistance"
+            " than the best estimate from 0.05 m to 8 m: change its scene as a.prm was"
+            " changed, and then `caisson run --band a.prm`."
+        )
+        self.assertTrue(words in text and "run a.prm</code>" in text)
+        self.assertIn(words, said.call_args.args[0])
+
     def test_assumed_permeability(self) -> None:
         """Pump and flow at which to stop say so; that a given one follows the void
         ratio may be assumed without a word."""

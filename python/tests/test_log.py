@@ -223,8 +223,7 @@ class Vessel(unittest.TestCase):
             change = HALF if name == "high" else -HALF
             history = history_of(BEST * np.exp(change))
             cut = {key: values[:rows] for key, values in history.items()}
-            summary = {"scene": SCENE, "entries": {}}
-            write_run(self.path / f"own_{name}", cut, summary)
+            write_run(self.path / f"own_{name}", cut, Results(self.own).summary)
         self.write_log(BEST, 5.0)
         _, said = vessel_log.write(self.own, self.file)
         text = "This rests on extrapolation: low from 5.8 m on and high from 6.86 m on."

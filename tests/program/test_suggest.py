@@ -126,6 +126,21 @@ class Band(SuggestTest):
             self.assertRegex(page, r"It takes about \d.*<code>.*run --band ")
             self.caisson_study(study)
 
+    @mock.patch("caisson.suggest.by_hand", return_value="")
+    def test_band_of_a_scene_before(self, _: mock.Mock) -> None:
+        """Its scenes are no band of a new one without such: they are refused, and put
+        aside with --overwrite, though the user may have changed them."""
+        path = self.made_directory() / "own.prm"
+        self.suggest(path, "--low", "0: phi = 30", "--high", "0: phi = 36")
+        low, high = (path.with_name(f"own_{end}.prm") for end in ("low", "high"))
+        path.unlink()
+        text = self.suggest(path, "--high", "0: phi = 37", status=1)
+        self.assertIn(f"{low} exists; --overwrite moves it away", text)
+        text = self.suggest(path, "--high", "0: phi = 37", "--overwrite")
+        kept = path.parent / "earlier_1" / low.name
+        self.assertIn(f"kept: {low} is now {kept}", text)
+        self.assertTrue(kept.is_file() and high.is_file() and not low.exists())
+
     def caisson_study(self, file: Path) -> None:
         """Let the program read the runs of a study."""
         study = tomllib.loads(file.read_text(encoding="utf-8"))

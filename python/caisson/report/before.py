@@ -2,7 +2,7 @@
 """The page of a scene before any run, by hand methods: FILE.html beside FILE.prm."""
 import re
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from caisson.band import BEST, ESTIMATES, member_of
@@ -25,22 +25,21 @@ def seconds_of(cost: str) -> float:
     return FEW_STEPS * float(step[1]) if step else 0.0
 
 
-def to_come(scene: Path, cost: str, estimates: Sequence[str]) -> dict[str, str]:
-    """Return what the page says of the run that is to come. cost: what the program says
-    of the scene; estimates: of which there are scenes beside it."""
+def to_come(scene: Path, cost: str) -> dict[str, str]:
+    """Return what the page says of the run that is to come, but how to start it. cost:
+    what the program says of the scene."""
     duration = DURATION.search(cost)
-    return {
-        "scene_file": str(scene),
-        "cost": duration[1] if duration else "",
-        "next": command_for(scene, estimates),
-    }
+    return {"scene_file": str(scene), "cost": duration[1] if duration else ""}
 
 
 def page_of(members: Mapping[str, by_hand.ByHand], rate: Rate = Rate()) -> str:
     """Return the page of a scene, and say its verdict; nothing where no hand method
     knows the ground. members: the scene in soil of low, best and high resistance."""
-    best = by_hand.band_of(members)
     try:
+        best = by_hand.band_of(members)
+        beside = [x for x in members if x != BEST and x not in best.left_out]
+        scene = Path(best.summary["scene_file"])
+        best.summary["next"] = command_for(scene, beside)
         found = page.html(best, rate)
     except ResultsError as error:
         print(f"no page: {error}")
@@ -64,7 +63,7 @@ def html(scene: Path, rate: Rate, prepare: Callable[[Path], object]) -> str:
                 raise RunError(cost)
             files = {x: member_of(scene, x) for x in ESTIMATES}
             files = {x: file for x, file in files.items() if file.is_file()}
-            facts = to_come(scene, cost, [x for x in files if x != BEST])
+            facts = to_come(scene, cost)
             for estimate, file in files.items():
                 directory = Path(folder, estimate)
                 by_hand.step(file, directory, seconds_of(cost))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.band import BEST, HIGH, LOW, band_of
+from caisson.band import BEST, HIGH, LOW, band_of, left_out
 from caisson.curves import EDGE
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
@@ -57,7 +57,8 @@ def by_hand_in_words(run: Results) -> str:
 
 def sentence_of(run: Results) -> str:
     """Return, as far as they are known, where suction ends with the upper value of its
-    uncertainty, how far hand methods go, and what low and high resistance come to."""
+    uncertainty, how far hand methods go, and what low and high resistance come to, or
+    why they are left out."""
     if not (best := verdict_of(run)).text:
         return ""
     ends = dict[str, str]()
@@ -66,10 +67,12 @@ def sentence_of(run: Results) -> str:
         how = x, found, verdict_of(x), best.reason
         ends[estimate] = say("outcome", run.shown, *how)
     clay = any(x.get("total_stress") for x in run.scene.get("layers", []))
-    band = say("of_band", ends, n_soils(run) == 1, clay)
+    others = left_out(run)
+    band = say("of_band", ends, n_soils(run) == 1 and not others, clay)
     end = end_of_upper(run, band_of(run))
     upper = "" if end is None else say("end_of_upper", run.shown, end)
-    return " ".join(filter(None, [upper, by_hand_in_words(run), band]))
+    gone = say("left_out", others, run.known.get("scene_file") or "FILE.prm")
+    return " ".join(filter(None, [upper, by_hand_in_words(run), band, gone]))
 
 
 def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:

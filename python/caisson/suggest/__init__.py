@@ -180,7 +180,7 @@ def check_files(options: argparse.Namespace, estimates: Sequence[str]) -> None:
     files: list[Path] = [f for f in (options.file, options.study) if f]
     files.append(report.beside(options.file))
     files += [cone_test.beside(options.file)] * bool(options.cpt)
-    files += [member_of(options.file, estimate) for estimate in estimates]
+    files += [member_of(options.file, estimate) for estimate in (LOW, HIGH)]
     for file in files:
         if not file.parent.is_dir():
             raise SuggestError(f"there is no directory {file.parent}")
@@ -191,7 +191,16 @@ def check_files(options: argparse.Namespace, estimates: Sequence[str]) -> None:
                 f"{file} is the cone test, and a scene {options.file} gets its table in"
                 " a file of this name: give the scene another name"
             )
-        raise SuggestError(f"{file} exists; --overwrite replaces it")
+        how = (
+            "moves it away" if file in others_of(options, estimates) else "replaces it"
+        )
+        raise SuggestError(f"{file} exists; --overwrite {how}")
+
+
+def others_of(options: argparse.Namespace, estimates: Sequence[str]) -> list[Path]:
+    """Return the scenes of low and high resistance that are not to be written: of a
+    scene before, and none of the new band."""
+    return [member_of(options.file, x) for x in (LOW, HIGH) if x not in estimates]
 
 
 def refuse_quick_clay(layers: Sequence[Layer]) -> None:
@@ -513,7 +522,7 @@ def write(options: argparse.Namespace, estimates: Sequence[str] = ()) -> str:
         texts[cone_test.beside(options.file)] = cone_file.text_of(found.ground)
     print(cost)
     test = texts.get(cone_test.beside(options.file), "")
-    page = by_hand(options.file, scenes, cost, estimates, test)
+    page = by_hand(options.file, scenes, cost, test)
     with disk.all_or_none(options.overwrite):
         for file, text in texts.items():
             disk.write(file, text)
@@ -535,6 +544,8 @@ def write_all(options: argparse.Namespace) -> tuple[list[str], str]:
 def main(options: argparse.Namespace) -> int:
     """Write the scene, and say what it will cost."""
     estimates, page = write_all(options)
+    for scene in others_of(options, estimates):
+        disk.remove(scene)
     study = "caisson study" if INSTALLED else "scripts/caisson study"
     files = [options.file, *(member_of(options.file, e) for e in estimates)]
     if page:

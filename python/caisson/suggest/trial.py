@@ -4,7 +4,7 @@ hand methods say, on its page."""
 import concurrent.futures
 import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from caisson import disk
@@ -47,17 +47,16 @@ def by_hand(
     file: Path,
     texts: Mapping[str, str],
     cost: str,
-    estimates: Sequence[str],
     test: str = "",
 ) -> str:
     """Return the page of the scene of a file before any run, and say its verdict;
     nothing where no hand method knows the ground. texts: the scenes by estimate; cost:
-    what the program says of it; estimates: of which scenes are to be written; test: the
-    table of a cone test. Raises SuggestError where a scene does not run."""
+    what the program says of it; test: the table of a cone test. Raises SuggestError
+    where a scene does not run."""
     from caisson.report import before
     from caisson.verdict import by_hand as methods
 
-    seconds, facts = before.seconds_of(cost), before.to_come(file, cost, estimates)
+    seconds, facts = before.seconds_of(cost), before.to_come(file, cost)
 
     def made(estimate: str) -> methods.ByHand:
         directory = Path(folder, estimate)

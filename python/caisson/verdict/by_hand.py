@@ -31,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.band import BEST, ESTIMATES, HIGH, LOW
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of, why_not
 from caisson.design import suction_installation as suction
 from caisson.design.own_cone import DIAMETER
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
@@ -298,10 +298,16 @@ class ByHand(Results):
 
 def band_of(members: Mapping[str, ByHand]) -> ByHand:
     """Return the best estimate of a scene with its band. members: the scene in soil of
-    low, best and high resistance, of which low and high may be the best one's."""
+    low, best and high resistance, of which low and high may be the best one's, as they
+    are where the soil is not that of the band. Raises ResultsError."""
     best = members[BEST]
+    for x, at in members.items():
+        soil = ByHand(at.directory, BEST, at.facts)
+        if x != BEST and (why := why_not(best, soil, x)):
+            scene = Path(str(best.summary.get("scene_file")))
+            best.left_out[x] = f"{member_of(scene, x).name} {why}"
+    places = {x: at for x, at in members.items() if x not in best.left_out}
     best.estimates = {
-        x: ByHand((at := members.get(x, best)).directory, x, at.facts)
-        for x in ESTIMATES
+        x: ByHand((at := places.get(x, best)).directory, x, at.facts) for x in ESTIMATES
     } | {BEST: best}
     return best

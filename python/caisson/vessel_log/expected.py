@@ -161,7 +161,8 @@ def band_about(
     least = np.exp(LEAST_ASSUMED)
     ends = [np.fmin(low, best / least), np.fmax(high, best * least)]
     assumed = f"at least {100 * (least - 1):.0f} % to either side (ASSUMED)"
-    return ends, f"{', '.join(filter(None, (widest, assumed)))}, as {NO_BAND}"
+    why = " and ".join(band.left_out(run).values()) or NO_BAND
+    return ends, f"{', '.join(filter(None, (widest, assumed)))}, as {why}"
 
 
 def expected_of(run: Results) -> Expected:
