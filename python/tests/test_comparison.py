@@ -186,9 +186,17 @@ class Differences(WithPage):
             leave_run(path, {**summary, "entries": entries, "scene": scene})
         said = self.compare(one, other)
         self.assertIn("scene: differs in\n  Rigid body/Submerged weight\n", said)
-        self.assertIn("\n    1 MN\n    2 MN\npage: differs in\n  verdict\n", said)
+        self.assertIn(
+            "\n    1 MN\n    2 MN\nverdict, cards and limits: differs in\n  verdict\n",
+            said,
+        )
         self.assertIn("    Feasible to 4.5 m by weight 2 MN", said)
         self.assertNotIn("Output", said)
+        for path, pump in ((one, "40e3"), (other, "50e3")):
+            entries = {"Water/Largest suction": pump}
+            leave_run(path, {**summary, "entries": entries})
+        said = self.compare(one, other)
+        self.assertIn("  pump, at 4.5 m\n    40 kPa\n    50 kPa", said)
         self.assertNotIn("Pump", said)
         self.assertTrue((self.path / "comparison_one_other.png").is_file())
 
@@ -196,7 +204,10 @@ class Differences(WithPage):
         one, other = self.path / "one", self.path / "other"
         for path in (one, other):
             leave_run(path, SUMMARY)
-        self.assertIn("scene: the same\npage: the same\n", self.compare(one, other))
+        self.assertIn(
+            "scene: the same\nverdict, cards and limits: the same\n",
+            self.compare(one, other),
+        )
         third = self.path / "third"
         leave_run(third, SUMMARY)
         self.assertNotIn("scene", self.compare(one, other, third))

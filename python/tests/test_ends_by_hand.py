@@ -7,7 +7,7 @@ from test_by_hand import AREA, CLAY, D, END, QC, SAND, Scene, WATER
 from test_by_hand import bisected, in_clay, parts_in_sand, suction_in_sand
 
 from caisson.design import shell
-from caisson.report import verdict
+from caisson.report import low_and_high, verdict
 from caisson.results import ResultsError
 from caisson.verdict import by_hand, limits, outcome, run_review, theory
 
@@ -141,6 +141,13 @@ class Ends(Scene):
             self.assertEqual(not said, is_steady)
             ratio = D / 3600 / (k * 1.35 * 20e6 / WATER)
             self.assertIn("" if is_steady else f"vD/c_v is {ratio:.2g} at 1 m/h", said)
+            words = low_and_high.unsteady_in_words(run)
+            found = outcome.whole_way(run)
+            assert found is not None
+            end = np.interp(0, found.force - 2e3 - AREA * found.allowable, found.depth)
+            self.assertEqual(bool(words), not is_steady)
+            if words:
+                self.assertIn(f"without it, suction ends at {end - 0.05:.1f}", words)
             run = self.scene(CLAY, {**layer, "top_depth_m": 3.0})
             run.summary["entries"]["Water/Level"] = "seepage"
             self.assertEqual(run_review.review_of(run), ())

@@ -21,6 +21,7 @@ from caisson.commands import park, park_rows
 from caisson.results import Results
 from caisson.runner import Run, RunError
 from caisson.runs import How, StudyRun, make
+from caisson.verdict import outcome
 
 FAKE_PROGRAM = Path(__file__).resolve().parent / "fake_program.py"
 
@@ -84,8 +85,26 @@ class Overview(WithRuns):
         self.assertEqual(rows["good"]["governed_by"], "water boils")
         page = (self.path / "overview.html").read_text(encoding="utf-8")
         self.assertIn('<a href="runs/fair/report.html">fair</a>', page)
-        self.assertIn("4 positions, 3 computed, 2 of them feasible", page)
+        self.assertIn("4 positions, 3 computed, 2 of them feasible\nwith", page)
         self.assertGreater((self.path / "overview.png").stat().st_size, 5000)
+
+    def test_high_resistance(self) -> None:
+        """A position that high resistance stops is not feasible, and comes before one
+        with a larger share; its words are those of its page."""
+        most = (BEST[-1] - WEIGHT) / AREA
+        runs = [self.write("stiff", 1.5 * most), self.write("fair", 1.2 * most)]
+        self.write("stiff_high", 1.5 * most, 2 * BEST - BEST[0])
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            park.evaluate("positions.csv", runs, self.path, 1.0)
+        with (self.path / "overview.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["position"] for row in rows], ["stiff", "fair"])
+        end = outcome.feasible_to(Results(self.path / "runs/stiff_high"))
+        self.assertEqual(rows[0]["with_uncertainty_to_m"], f"{end:.4g}")
+        self.assertEqual(rows[0]["feasible_to_m"], "9")
+        page = (self.path / "overview.html").read_text(encoding="utf-8")
+        self.assertIn("2 computed, 1 of them feasible\nwith their uncertainty", page)
+        self.assertIn("With high resistance to", said.getvalue())
 
     def test_nothing_is_allowed(self) -> None:
         """As where the plug meets the lid: suction ends there, as at any other limit,

@@ -206,6 +206,14 @@ class PipingOutside(unittest.TestCase):
             found = retrieval.outward(skirt, sand, 2.0, ratio)
             self.assertAlmostEqual(found, 18e3 / a, delta=1e-6 * found)
 
+    def test_cracks(self) -> None:
+        """By the least stress at rest, which is the vertical one where K0 is above 1:
+        0.5 or 1 times 4 m of 6 kPa/m, and 20 kPa."""
+        clay = [Layer(0.0, 6e3, 20e3, 10e3, 10e3)]
+        for ratio, least in ((0.5, 12e3), (1.5, 24e3)):
+            found = retrieval.fracture(clay, [ratio], 4.0)
+            self.assertAlmostEqual(found, least + 20e3)
+
 
 class WayUp(unittest.TestCase):
     """The table of a retrieval."""

@@ -93,6 +93,14 @@ class RunReview(unittest.TestCase):
         found = {"result": [], "input": ["coarse"], "cosmetic": []}
         self.assertEqual(run_review.warnings_of(run), found)
 
+    def test_short_way(self) -> None:
+        """Forces build up over a few wall thicknesses."""
+        for walls, is_said in ((2, True), (4, False)):
+            table = records()
+            rows = table["penetration_m"] < 0.5 + walls * WALL
+            said = self.words({name: x[rows] for name, x in table.items()})
+            self.assertEqual("less than 3 wall thicknesses" in said, is_said, said)
+
     def test_fall_of_tip(self) -> None:
         """By 10 % less what the depth adds, within a quarter of the width of the tip;
         not within three."""

@@ -12,6 +12,8 @@ mean over 0.2 m, as everywhere; see curves.
 import argparse
 from collections.abc import Iterator
 
+import numpy as np
+
 from caisson.plot import comparison
 from caisson.report import scene, trace, verdict
 from caisson.report.low_and_high import cards_of, sentence_of
@@ -25,12 +27,18 @@ Words = dict[str, str]  # by the name of an entry or a card
 
 
 def page_of(run: Results) -> Words:
-    """Return what the page of a run says first: its verdict, and its cards."""
+    """Return what the page of a run says first: its verdict, its cards, and the limits
+    of the suction where they end."""
     said = {"verdict": f"{verdict.verdict_of(run).text} {sentence_of(run)}".strip()}
     if (found := outcome.whole_way(run)) is not None:
         part = outcome.feasible_part(run, found, outcome.depth_of(run))
         for name, *words in cards_of(run, verdict.cards_of(run, part, Rate())):
             said[name] = ", ".join(filter(None, words))
+        place = run.shown.place(float(part.depth[-1])) if len(part.depth) else ""
+        for name, values in part.limits.items():
+            if np.isfinite(values[-1]):
+                most = run.shown.words(float(values[-1]), "kPa", ".3g")
+                said[f"{part.named(name)}, at {place}"] = most
     return {name: text for name, text in said.items() if text}
 
 
@@ -51,7 +59,7 @@ def differences(runs: list[Results]) -> Iterator[str]:
         yield "of each pair, the upper is {}, the lower {}".format(*names)
         scenes = (scene.with_units(run, trace.entries_of(run)) for run in runs)
         yield from changes("scene", *scenes)
-        yield from changes("page", *map(page_of, runs))
+        yield from changes("verdict, cards and limits", *map(page_of, runs))
 
 
 def main(options: argparse.Namespace) -> int:

@@ -38,13 +38,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from caisson import disk, plot, report, study_command
-from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of
+from caisson.band import BEST, ESTIMATES, HIGH, LOW, band_of, member_of
 from caisson.commands import park_rows
 from caisson.commands.park_rows import Position
 from caisson.disk import InputError
 from caisson.paths import RESULTS, short
 from caisson.ranks import cores
-from caisson.report import verdict
+from caisson.report import low_and_high, verdict
 from caisson.results import Results
 from caisson.runner import Run
 from caisson.runs import COMPLETE, StudyRun
@@ -53,7 +53,7 @@ from caisson.suggest import percent
 from caisson.suggest.sizes import LEVELS
 from caisson.table import digits, write_csv
 from caisson.template import template
-from caisson.verdict import installation
+from caisson.verdict import installation, outcome, uncertainty
 
 HERE = Path(__file__).parent
 KNOWN = "positions.json"  # what the scenes rest on, by the name of a position
@@ -134,12 +134,15 @@ def runs_of(position: Position, folder: Path, program: Path) -> Iterator[StudyRu
 class Row(NamedTuple):
     """A position, as overview.csv has it: what is said of it, numbers that are nan
     where they are not known, and its page from the folder of the overview, "" for
-    none. utilization: the largest share of the allowable suction that is required."""
+    none. utilization: the largest share of the allowable suction that is required;
+    with_uncertainty_to_m: how deep it is feasible with low and high resistance and the
+    upper value of its uncertainty, if that is less."""
 
     position: str
     utilization: float = math.nan
     governed_by: str = ""
     feasible_to_m: float = math.nan
+    with_uncertainty_to_m: float = math.nan
     planned_m: float = math.nan
     self_weight_penetration_m: float = math.nan
     largest_suction_kPa: float = math.nan
@@ -150,8 +153,14 @@ class Row(NamedTuple):
     @property
     def reached(self) -> float:
         """The share of the planned way that is feasible; 1 where it is not known."""
-        share = self.feasible_to_m / self.planned_m if self.planned_m else math.nan
+        ends = self.feasible_to_m, self.with_uncertainty_to_m
+        share = np.nanmin([*ends, math.inf]) / (self.planned_m or math.nan)
         return min(share, 1.0) if math.isfinite(share) else 1.0
+
+    @property
+    def is_feasible(self) -> bool:
+        """Whether it goes in, with its uncertainty, too."""
+        return not (self.utilization >= 1 or self.with_uncertainty_to_m > 0)
 
     @property
     def rank(self) -> tuple[bool, float, float]:
@@ -191,12 +200,17 @@ def with_numbers(row: Row, run: Results) -> Row:
     """Return a row with what a run says."""
     said = verdict.verdict_of(run)
     found = installation.installation_of(run, installation.Rate())
-    row = row._replace(verdict=said.text or "The run says nothing.")
+    words = f"{said.text} {low_and_high.sentence_of(run)}".strip()
+    row = row._replace(verdict=words or "The run says nothing.")
     if found is None:
         return row
     part = verdict.feasible_part(run, found, said.end)
+    end, members = said.end or float(found.depth[-1]), band_of(run)
+    upper = uncertainty.end_of_upper(run, members) or math.inf
+    least = min(upper, *map(outcome.feasible_to, members.values()))
     row = row._replace(
-        feasible_to_m=said.end or float(found.depth[-1]),
+        feasible_to_m=end,
+        with_uncertainty_to_m=least if least < end else math.nan,
         planned_m=run.planned or math.nan,
         self_weight_penetration_m=math.nan if found.rest is None else found.rest,
     )
@@ -272,7 +286,7 @@ def evaluate(title: str, runs: Sequence[StudyRun], folder: Path, minutes: float)
         title=disk.one_line(title),
         rows=rows,
         complete=len(complete),
-        feasible=sum(not row.utilization >= 1 for row in complete),
+        feasible=sum(row.is_feasible for row in complete),
         style=css.read_text(encoding="utf-8"),
         picture=PICTURE,
         table=TABLE,

@@ -8,8 +8,8 @@ lifts the caisson, so that nothing holds the plug but the ground:
   reverse bearing (plug_stability) without a weight, as the soil inside and outside is
   equally high.
 - Clay: the ground cracks where the water bears more than its least stress at rest and
-  its strength beside the tip, at p = K0 sigma'_v + s_u (custom). The water is taken to
-  reach the tip along the wall.
+  its strength beside the tip, at p = min(K0, 1) sigma'_v + s_u (custom). The water is
+  taken to reach the tip along the wall.
 - Sand along all of the wall: water flows down in the plug and up outside, where it
   bears the weight of the sand at p = gamma' h / a, on average over the wall, with the
   share a of the overpressure that is left at the tip (Houlsby & Byrne 2005,
@@ -46,7 +46,7 @@ def fracture(layers: Sequence[Layer], ratios: Sequence[float], h: float) -> floa
     clay along the wall. ratios: K0 of the layers."""
     if not has_clay(layers, h):
         return nan
-    least = ratios[tip_layer(layers, h)] * vertical_stress(layers, h)
+    least = min(ratios[tip_layer(layers, h)], 1.0) * vertical_stress(layers, h)
     return least + strength_at(layers, h)
 
 

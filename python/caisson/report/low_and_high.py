@@ -2,6 +2,7 @@
 """What low and high resistance of the soil change on the page of the best estimate: the
 verdict, the penetration by weight, and the required suction at the quarters; and how
 far the result may be wrong in all."""
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
 from caisson.verdict.by_hand import ByHand
-from caisson.verdict.installation import NOTHING, Installation, Rate
+from caisson.verdict.installation import NOTHING, Installation, Rate, plug_area
+from caisson.verdict.limits import rounded_down
+from caisson.verdict.run_review import unsteady_flow
 from caisson.report.verdict import REST, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
 from caisson.results import Results, ResultsError
@@ -55,10 +58,25 @@ def by_hand_in_words(run: Results) -> str:
     return say("beside_by_hand", run.shown, at, needs, min(at, depth.max()))
 
 
+def unsteady_in_words(run: Results) -> str:
+    """Return that flow is not steady, and by hand where suction ends without what it
+    takes from the forces; nothing where flow is steady."""
+    found = outcome.whole_way(run)
+    if not (unsteady := unsteady_flow(run)) or not found or not found.has_suction:
+        return ""
+    end = None
+    if run.by_hand:
+        missing = (found.force - run.weight / 1e3) / plug_area(run.scene)
+        required = np.maximum(missing, 0.0)
+        least = outcome.reached(replace(found, required=required), found.allowable)
+        end = rounded_down(least[0]) if least else None
+    return say("not_steady", run.shown, *unsteady, end, bool(run.by_hand))
+
+
 def sentence_of(run: Results) -> str:
     """Return, as far as they are known, where suction ends with the upper value of its
-    uncertainty, how far hand methods go, and what low and high resistance come to, or
-    why they are left out."""
+    uncertainty or without steady flow, how far hand methods go, and what low and high
+    resistance come to, or why they are left out."""
     if not (best := verdict_of(run)).text:
         return ""
     ends = dict[str, str]()
@@ -72,7 +90,8 @@ def sentence_of(run: Results) -> str:
     end = end_of_upper(run, band_of(run))
     upper = "" if end is None else say("end_of_upper", run.shown, end)
     gone = say("left_out", others, run.known.get("scene_file") or "FILE.prm")
-    return " ".join(filter(None, [upper, by_hand_in_words(run), band, gone]))
+    parts = upper, unsteady_in_words(run), by_hand_in_words(run), band, gone
+    return " ".join(filter(None, parts))
 
 
 def cards_of(run: Results, cards: list[list[str]]) -> list[list[str]]:

@@ -189,13 +189,15 @@ def keep(run: Results) -> str:
         known["feasible_to_m"] = found.end
     if (upper := uncertainty.end_of_upper(run, band_of(run))) is not None:
         known["feasible_to_by_upper_value_m"] = upper
-    if rows := rows_of_limits(run, found.end):
+    is_way_down = not evaluation.is_pull(run)
+    if is_way_down and (rows := rows_of_limits(run, found.end)):
         known["limits"] = rows
     if retrieved := retrieval.retrieval_of(run):
         known["retrieval"] = retrieved.rows()
     if warnings := run_review.down_to(found.end, run_review.review_of(run)):
         known["warnings"] = warnings
-    if parts := [x.as_json() for x in uncertainty.at_end(band_of(run))]:
+    parts = [x.as_json() for x in uncertainty.at_end(band_of(run))]
+    if is_way_down and parts:
         known["uncertainty"] = parts
     text = json.dumps(known, indent=2, ensure_ascii=False) + "\n"
     disk.write(run.directory / NAME, text)

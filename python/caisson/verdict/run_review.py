@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from caisson import run_error_bar, template
-from caisson.evaluation import rest_of
+from caisson.evaluation import DEPTH, is_pull, rest_of
 from caisson.results import Results, Table
 from caisson.units import WATER
 
@@ -38,6 +38,7 @@ WORK = {"external_work_J", "kinetic_energy_J", "total_force_N"}
 AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 # m/s, that of a pump; P-wave over Young's modulus, with a Poisson's ratio of 0.3
 USUAL_RATE, P_WAVE = 1.0 / 3600, 1.35
+FEWEST_WALLS = 3  # thicknesses of the wall, over which forces build up
 LEAST_ABOVE = 0.1  # m, of a lid above the sea
 UNSTEADY = 1.0  # v D / c_v, below which flow counts as steady
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
@@ -227,12 +228,12 @@ class Review:
         return say("fast", percent(found.share), found.penetration, most)
 
 
-def unsteady_flow(run: Results) -> str:
-    """Return a warning of sand in which the flow is not steady as a pump moves the
-    caisson: v D / c_v, by c_v = k M / gamma_w, is above UNSTEADY."""
+def unsteady_flow(run: Results) -> tuple[int, float] | None:
+    """Return the layer of sand in which the flow is least steady as a pump moves the
+    caisson, and v D / c_v there, by c_v = k M / gamma_w, if that is above UNSTEADY."""
     diameter = float(run.scene.get("diameter_m") or 0)
     if not run.weight or run.entry("Water/Level") != "seepage":
-        return ""
+        return None
     found = dict[int, float]()
     for number, layer in enumerate(run.scene.get("layers", []), 1):
         names = "permeability_m_s", "youngs_modulus_Pa", "friction_angle_deg"
@@ -243,7 +244,7 @@ def unsteady_flow(run: Results) -> str:
         ratio = USUAL_RATE * diameter / c_v if c_v > 0 else 0.0
         found[int(layer.get("layer", number))] = ratio
     number, most = max(found.items(), key=lambda x: x[1], default=(0, 0.0))
-    return say("unsteady", number, most) if most > UNSTEADY else ""
+    return (number, most) if most > UNSTEADY else None
 
 
 def lid_above_sea(run: Results) -> str:
@@ -255,6 +256,15 @@ def lid_above_sea(run: Results) -> str:
     rest = rest_of(run) or 0.0
     above = length - rest - float(water)
     return say("above_sea", above, rest) if above > LEAST_ABOVE else ""
+
+
+def short_way(run: Results) -> str:
+    """Return a warning of a way down on which the forces only build up."""
+    wall, depth = float(run.scene.get("wall_thickness_m") or 0), run.history[DEPTH]
+    way = float(depth.max() - depth[0])
+    begins = run.is_finished and not run.entry("Installation/Directory")
+    is_short = begins and not is_pull(run) and 0 < way < FEWEST_WALLS * wall
+    return say("short_way", way, FEWEST_WALLS) if is_short else ""
 
 
 def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
@@ -270,7 +280,8 @@ def review_of(run: Results) -> tuple[str, ...]:
     earlier version of the program, whose run.json has that itself; and whether its
     flow is steady, its lid in the water, and its error bar that of another scene."""
     other_bar = say("other_bar") if run_error_bar.is_of_another(run) else ""
-    of_all = tuple(filter(None, [unsteady_flow(run), lid_above_sea(run), other_bar]))
+    unsteady = say("unsteady", *found) if (found := unsteady_flow(run)) else ""
+    of_all = tuple(filter(None, [unsteady, lid_above_sea(run), other_bar]))
     if (
         run.by_hand
         or run.is_running
@@ -278,7 +289,7 @@ def review_of(run: Results) -> tuple[str, ...]:
         or "tip_force_N" not in run.history
     ):
         return of_all
-    return *Review(run).warnings(), *of_all
+    return *Review(run).warnings(), *filter(None, [short_way(run)]), *of_all
 
 
 def warnings_of(run: Results, end: float | None = None) -> dict[str, list[str]]:
