@@ -71,9 +71,8 @@ def draw(path: Path, run: Results) -> Path | None:
     if not names:
         return None
     times = shown_times(walls, run.scene.get("frame_penetrations_m") or ())
-    figure, site = Figure(figsize=(PAGE, 4.8), layout="constrained"), theory.site_of(
-        run
-    )
+    figure = Figure(figsize=(PAGE, 4.8), layout="constrained")
+    site = theory.site_of(run)
     axes = figure.subplots(2, len(names), squeeze=False, sharey=True, sharex="row")
     for row, (stress, (label, beside)) in zip(axes, STRESSES.items()):
         label = label or fields.stress_in_words(run.scene, "normal")

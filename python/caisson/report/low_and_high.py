@@ -9,6 +9,7 @@ import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of, left_out
 from caisson.curves import EDGE
+from caisson.design.suction_installation import suction_without_flow
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
@@ -66,8 +67,8 @@ def unsteady_in_words(run: Results) -> str:
         return ""
     end = None
     if run.by_hand:
-        missing = (found.force - run.weight / 1e3) / plug_area(run.scene)
-        required = np.maximum(missing, 0.0)
+        loads = found.force, run.weight / 1e3, plug_area(run.scene)
+        required = suction_without_flow(*loads)
         least = outcome.reached(replace(found, required=required), found.allowable)
         end = rounded_down(least[0]) if least else None
     return say("not_steady", run.shown, *unsteady, end, bool(run.by_hand))

@@ -176,8 +176,9 @@ class ByHand(Results):
         if not every:
             raise ResultsError(self.why_not())
         found = forces_of(every, self.estimate)
-        sand = answers_of(self.site, np.append(np.minimum(depth, top), top))
-        if not 0 < top < self.end or not sand:
+        in_sand = np.append(np.minimum(depth, top), top)
+        sand = answers_of(self.site, in_sand) if 0 < top < self.end else []
+        if not sand:
             return {part: values[:n] for part, values in found.items()}
         above, is_above = forces_of(sand, self.estimate), depth <= top
         for part in theory.PARTS[:3]:

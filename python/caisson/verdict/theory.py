@@ -422,13 +422,13 @@ def from_cone(name: str, key: str, color: str, module: Any, **more: Any) -> Desc
 
 
 BYRNE = "Houlsby & Byrne (2005)", "houlsby_byrne", "#2166ac"
-RANDOLPH = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
+SENDERS = "Senders & Randolph (2009)", "senders_randolph", "#2e8b57"
 UNIFIED = "ISO 19901-4 (unified)", "unified", "#c51b7d"
 ANDERSEN = "Andersen et al. (2008)", "andersen", "#7b3294"
 METHODS = (
     Description(*BYRNE, HoulsbyByrne.cases, houlsby_byrne_of, (UNDISTURBED,), True),
     Description("DNV", "dnv", "#8c510a", dnv.CASES, dnv_of, (), True, True),
-    Description(*RANDOLPH, senders_randolph.CASES, senders_of, (), True, True),
+    Description(*SENDERS, senders_randolph.CASES, senders_of, (), True, True),
     from_cone(*UNIFIED, unified, has_suction=True, remark=", for piles"),
     from_cone(*ANDERSEN, andersen, remark=", a scatter"),
     Description("Strength of clay", "clay", "#666666", clay.CASES, clay_of),
