@@ -2,8 +2,8 @@
 """Finds the coarsest mesh with which a scene reaches the error that is wanted, for
 `caisson run --error`.
 
-Similar meshes are run from the coarsest on. With two of them and more the finest has an
-error bar. The first whose bar of the total force is small enough at nine tenths of the
+Similar meshes are run from the coarsest on. With two of them and more each has an error
+bar. The coarsest whose bar of the total force is small enough at nine tenths of the
 depths is the one that is wanted; the scene then runs on it, with its bar.
 """
 import argparse
@@ -70,6 +70,19 @@ def check_mesh_matters(errors: dict[str, float], wanted: float) -> None:
     )
 
 
+def about_mesh(study: Study, name: str) -> Study:
+    """Return the study with its run of this name as the one that has the bar."""
+    study.run(name).name = command.DEFAULT
+    for term in study.keys["errors"]:
+        if term.get("from") == name:
+            term["from"] = command.DEFAULT
+        elif "meshes" in term:
+            term["meshes"] = [
+                command.DEFAULT if mesh == name else mesh for mesh in term["meshes"]
+            ]
+    return study
+
+
 def mesh_for(
     scene: Path, wanted: float, budget: float, directory: Path
 ) -> tuple[dict[str, Any], Path]:
@@ -95,14 +108,14 @@ def mesh_for(
         plan.run_missing(study, study_command.ALL)
         if len(names) < 2:
             continue
-        study.run(names[r]).name = command.DEFAULT  # the finest one
-        study.keys["errors"][0]["meshes"][-1] = command.DEFAULT
-        command.set_depths(study, plan.depths)
-        errors = errors_by_term(study)
-        print(f"refinement {r:g}: error of the total force {in_percent(errors[ALL])}")
-        if errors[ALL] <= wanted:
-            bar_study.evaluate([study], Options(), 0)
-            return plan.mesh(r), bar
+        for mesh, name in names.items():
+            study = about_mesh(plan.study(names), name)
+            command.set_depths(study, plan.depths)
+            errors = errors_by_term(study)
+            print(f"{name}: error of the total force {in_percent(errors[ALL])}")
+            if errors[ALL] <= wanted:
+                bar_study.evaluate([study], Options(), 0)
+                return plan.mesh(mesh), bar
         check_mesh_matters(errors, wanted)
         reached = f"; {in_percent(errors[ALL])} are reached"
     raise StudyError(f"no finer mesh is known here{reached}")
