@@ -51,6 +51,13 @@ EDGE = 0.005  # m; a corrected depth may be less than the length, a hole's depth
 DISAGREE = 0.5  # m, and a tenth: more is no correction of a depth
 
 
+def gaps_in(depth: np.ndarray) -> tuple[tuple[float, float], ...]:
+    """Return top and bottom of the wide steps between depths [n] (m)."""
+    step = np.diff(depth)
+    wide = np.flatnonzero(step > max(GAP, SPACINGS * float(np.median(step))))
+    return tuple((float(depth[i]), float(depth[i + 1])) for i in wide)
+
+
 class Readings:
     """The rows of a test, [n] each: the number of each in the file, the name of its
     push, depth and length of the rods (m), cone resistance, sleeve friction and pore
@@ -471,10 +478,7 @@ class Readings:
 
     def gaps(self) -> tuple[tuple[float, float], ...]:
         """Return top and bottom (m) of what was not measured between the rows."""
-        depth = self.depth
-        step = np.diff(depth)
-        wide = np.flatnonzero(step > max(GAP, SPACINGS * float(np.median(step))))
-        found = tuple((float(depth[i]), float(depth[i + 1])) for i in wide)
+        found = gaps_in(self.depth)
         if found:
             where = ", ".join(f"{a:g} to {b:g} m" for a, b in found)
             self.remarks.append(

@@ -16,6 +16,8 @@ from caisson import run_error_bar, template
 from caisson.evaluation import DEPTH, is_pull, rest_of
 from caisson.results import Results, Table
 from caisson.units import WATER
+from caisson.design import cone
+from caisson.design.cone_rules import gaps_in
 
 say = partial(template.say, Path(__file__).with_name("words.jinja"))
 # A fall counts if it takes less than this way, in widths of the tip. The stretches of
@@ -258,6 +260,15 @@ def lid_above_sea(run: Results) -> str:
     return say("above_sea", above, rest) if above > LEAST_ABOVE else ""
 
 
+def gaps_in_test(run: Results) -> str:
+    """Return a warning of what its cone test has not measured on the way down."""
+    test = cone.of_run(run.directory)
+    if test is None or run.planned is None:
+        return ""
+    found = [gap for gap in gaps_in(test.depth) if gap[0] < run.planned]
+    return say("gaps_in_test", found) if found else ""
+
+
 def short_way(run: Results) -> str:
     """Return a warning of a way down on which the forces only build up."""
     wall, depth = float(run.scene.get("wall_thickness_m") or 0), run.history[DEPTH]
@@ -278,10 +289,12 @@ def down_to(end: float | None, texts: Iterable[str]) -> list[str]:
 def review_of(run: Results) -> tuple[str, ...]:
     """Return what the records of a run that has ended say against it, but of one by an
     earlier version of the program, whose run.json has that itself; and whether its
-    flow is steady, its lid in the water, and its error bar that of another scene."""
+    flow is steady, its lid in the water, its cone test without gaps, and its error bar
+    that of another scene."""
     other_bar = say("other_bar") if run_error_bar.is_of_another(run) else ""
     unsteady = say("unsteady", *found) if (found := unsteady_flow(run)) else ""
-    of_all = tuple(filter(None, [unsteady, lid_above_sea(run), other_bar]))
+    texts = [unsteady, lid_above_sea(run), gaps_in_test(run), other_bar]
+    of_all = tuple(filter(None, texts))
     if (
         run.by_hand
         or run.is_running
