@@ -265,7 +265,9 @@ def gaps_in_test(run: Results) -> str:
     test = cone.of_run(run.directory)
     if test is None or run.planned is None:
         return ""
-    found = [gap for gap in gaps_in(test.depth) if gap[0] < run.planned]
+    end = float(test.depth[-1])
+    gaps = *gaps_in(test.depth), (end, max(end, run.planned))
+    found = [gap for gap in gaps if gap[0] < run.planned]
     return say("gaps_in_test", found) if found else ""
 
 
