@@ -110,6 +110,17 @@ class Ends(Scene):
         text = verdict.verdict_of(self.scene(CLAY, weight=weight)).text
         self.assertIn("no suction is needed", text)
 
+    def test_plug_that_meets_the_lid(self) -> None:
+        """It ends the way also of a caisson whose weight suffices there: the plug has
+        half of the area of the tip."""
+        run = self.scene(CLAY, weight=1.1 * in_clay(END, 9))
+        run.scene["skirt_length_m"] = END + 0.01
+        end = outcome.feasible_to(run)
+        room = END + 0.01 - (1 + (np.pi / 4 * D**2 - AREA) / AREA / 2) * end
+        self.assertLess(end, END - 0.01)
+        self.assertAlmostEqual(room, 0, delta=0.1)
+        self.assertIn("plug meets the lid", verdict.verdict_of(run).text)
+
     def test_lid_above_the_sea(self) -> None:
         """Water boils beneath a lid 3 m over a mudline at which 30 kPa boil it: 0.6 kPa
         are left there, and none higher up."""

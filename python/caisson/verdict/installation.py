@@ -149,9 +149,10 @@ class Installation:
         return np.where(has_begun(self.required, self.is_exact), known, 0.0)
 
     @property
-    def buckled(self) -> np.ndarray:
-        """Where the wall buckles under what it bears without any suction, [n]."""
-        return np.asarray(self.limits.get(limits.SHELL, np.ones(len(self.depth))) <= 0)
+    def held_up(self) -> np.ndarray:
+        """Where wall or lid hold the caisson up without any suction, [n]."""
+        wall, lid = (self.limits.get(x, np.inf) for x in (limits.SHELL, limits.LID))
+        return np.asarray(np.minimum(wall, lid) <= np.zeros(len(self.depth)))
 
     def governing(self, i: int) -> str:
         """Return which limit is the least at a depth."""

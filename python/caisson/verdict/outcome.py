@@ -31,9 +31,10 @@ FINER = 21  # rows between two of the tables
 
 def reached(found: Installation, limit: np.ndarray) -> tuple[float, int] | None:
     """Return the depth (m) where the required suction reaches a limit [n] (kPa), or
-    the wall buckles without any, and the row at or below it; None where it does not."""
+    wall or lid hold the caisson up without any, and the row at or below it; None where
+    nothing does."""
     beyond = (found.required >= limit) & (found.required > NOTHING)
-    beyond |= found.buckled & (limit <= 0)
+    beyond |= found.held_up & (limit <= 0)
     if not beyond.any():
         return None
     i = int(np.argmax(beyond))
@@ -56,7 +57,7 @@ def end_by_program(run: Results) -> tuple[float, str] | None:
 def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | None:
     """Return the depth (m) where the required suction reaches the allowable one, and
     why; None where it does not."""
-    if not found.has_suction and not found.buckled.any():
+    if not found.has_suction and not found.held_up.any():
         return None
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
