@@ -372,16 +372,19 @@ class Plan:
         more = self.cost_of_changes if is_first else 0.0
         return self.seconds * r**3 * (1 + more)
 
-    def study(self, names: Mapping[float, str]) -> Study:
+    def study(self, names: Mapping[float, str], default: str = DEFAULT) -> Study:
         """Return the runs on meshes, which have names by refinement, and the terms of
-        the error bar."""
+        the error bar. default: the name of the run that has it, and is called so."""
         runs = [
             self.run(name, self.mesh(r), self.sized(r), self.windows)
             for r, name in names.items()
         ]
+        called = {r: name if name != default else DEFAULT for r, name in names.items()}
+        for run, name in zip(runs, called.values()):
+            run.name = name
         coarsest = min(names)
-        changed, terms = self.changed(coarsest, names[coarsest])
-        errors = [{"name": "mesh", "meshes": list(names.values())}, *terms]
+        changed, terms = self.changed(coarsest, called[coarsest])
+        errors = [{"name": "mesh", "meshes": list(called.values())}, *terms]
         keys = {"errors": errors, "output": str(self.output.resolve())}
         return Study(self.scene.stem, self.scene.stem, self.scene, runs + changed, keys)
 

@@ -70,19 +70,6 @@ def check_mesh_matters(errors: dict[str, float], wanted: float) -> None:
     )
 
 
-def about_mesh(study: Study, name: str) -> Study:
-    """Return the study with its run of this name as the one that has the bar."""
-    study.run(name).name = command.DEFAULT
-    for term in study.keys["errors"]:
-        if term.get("from") == name:
-            term["from"] = command.DEFAULT
-        elif "meshes" in term:
-            term["meshes"] = [
-                command.DEFAULT if mesh == name else mesh for mesh in term["meshes"]
-            ]
-    return study
-
-
 def mesh_for(
     scene: Path, wanted: float, budget: float, directory: Path
 ) -> tuple[dict[str, Any], Path]:
@@ -104,12 +91,11 @@ def mesh_for(
             )
         left -= cost
         names[r] = f"refinement {r:g}"
-        study = plan.study(names)
-        plan.run_missing(study, study_command.ALL)
+        plan.run_missing(plan.study(names), study_command.ALL)
         if len(names) < 2:
             continue
         for mesh, name in names.items():
-            study = about_mesh(plan.study(names), name)
+            study = plan.study(names, name)
             command.set_depths(study, plan.depths)
             errors = errors_by_term(study)
             print(f"{name}: error of the total force {in_percent(errors[ALL])}")
