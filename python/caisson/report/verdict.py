@@ -20,7 +20,7 @@ from caisson.results import Results
 from caisson.verdict import outcome, retrieval, run_review, theory, uncertainty
 from caisson.verdict.outcome import REASONS, feasible_part, reached
 from caisson.verdict.installation import NOTHING, Installation, Rate, bar_at
-from caisson.verdict.limits import COMPUTED, PIPING, REVERSE_BEARING, SHELL
+from caisson.verdict.limits import COMPUTED, LID, PIPING, REVERSE_BEARING, SHELL
 
 NAME = "verdict.json"
 NEAR = 0.9  # of the allowable suction: a required one that reaches it
@@ -63,8 +63,10 @@ def of_suction(
     if ended is not None:
         gradient = by_gradient(run) if ended[1] == REASONS[PIPING] else None
         more = remedies.sentence_of(run, found, planned or float(found.depth[-1]))
-        buckles = ended[1].startswith(SHELL) and not found.required[-1]
-        return f"{say('ends', found, ended[1], NEAR, gradient, buckles)} {more}".strip()
+        holds = "" if found.required[-1] else ended[1]
+        without = holds.startswith(SHELL), holds.startswith(LID)
+        text = say("ends", found, ended[1], NEAR, gradient, *without)
+        return f"{text} {more}".strip()
     shares = found.utilization
     nearest = int(np.nanargmax(shares)) if (shares > 0).any() else None
     most = int(np.argmax(found.required))
