@@ -13,7 +13,15 @@ from synthetic import write_run
 import caisson
 from caisson import vessel_log
 from caisson.disk import InputError
-from caisson.vessel_log import expected, forecast, measured, picture, sheet, words
+from caisson.vessel_log import (
+    expected,
+    forecast,
+    measured,
+    picture,
+    sheet,
+    steps,
+    words,
+)
 from caisson.results import Results
 
 WEIGHT, DIAMETER, WALL, END = 1.5e6, 8.0, 0.03, 9.0
@@ -98,8 +106,8 @@ class Vessel(unittest.TestCase):
         """Return what runs and log come to."""
         found = expected.expected_of(Results(self.own))
         log = measured.read(self.file)
-        bins = measured.bins_of(self.file, log, found)
-        weight = measured.weight_of(log, found)
+        bins = steps.bins_of(self.file, log, found)
+        weight = steps.weight_of(log, found)
         return found, bins, forecast.forecast_of(found, bins, weight)
 
     def test_soil_between_the_runs(self) -> None:
@@ -153,19 +161,20 @@ class Vessel(unittest.TestCase):
         self.assertLess(first, DEPTH[300])
         self.assertGreater(last, DEPTH[300])
         self.assertAlmostEqual(middle, DEPTH[300], delta=0.15)
-        said = words.of_forecast(found, bins, ahead)
+        log = measured.read(self.file)
+        said = words.of_forecast(found, log, bins, ahead)
         self.assertRegex(said, r"refusal between 6.* and 8.* m, most likely at 6\.9 m")
 
     def test_above_the_allowable(self) -> None:
         """It is said from where on the measured suction was more than allowed, and
         nothing of a refusal where the log ends with that."""
         self.write_runs(boiling=(BEST[300] - WEIGHT) / AREA)
-        for last, wanted in ((5.0, "^$"), (8.0, r"from (6\.[7-9]|7|7\.1) m on")):
+        for last, wanted in ((5.0, "^$"), (8.0, r"from (6\.[5-9]|7) m on")):
             self.write_log(BEST, last)
             found, bins, ahead = self.answer()
-            said = words.of_allowable(found, bins, ahead.weight)
-            self.assertRegex(said, wanted)
-        said = words.of_forecast(found, bins, ahead)
+            log = measured.read(self.file)
+            self.assertRegex(words.of_allowable(found, log), wanted)
+        said = words.of_forecast(found, log, bins, ahead)
         self.assertRegex(said, r"^Forecast: already at (7\.9|8) m, where the log")
 
     def test_nine_of_ten(self) -> None:
@@ -248,6 +257,127 @@ class Vessel(unittest.TestCase):
             if len(x) and np.isnan(x[0]) and np.isfinite(x[-1])
         ]
         np.testing.assert_allclose(sorted(dashed), [5.8, 6.86], atol=0.1)
+
+    def write_rows(self, head: str, *columns: np.ndarray) -> None:
+        """Write a log with columns [n]."""
+        rows = [",".join(f"{x:.6g}" for x in row) for row in zip(*columns)]
+        self.file.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+
+    def said(self) -> str:
+        """Return what the log says."""
+        return "\n".join(vessel_log.write(self.own, self.file)[1])
+
+    def test_refused_by_the_ground(self) -> None:
+        """A caisson that rests while suction rises to more than is allowed is a
+        refusal, not a stop of the pump; so is one under a suction that is allowed."""
+        depth = np.append(np.arange(1.0, 5.0, 0.01), np.full(60, 5.0))
+        usual = np.maximum(np.interp(depth, DEPTH, BEST) - WEIGHT, 0) / AREA / 1e3
+        rise = np.append(np.ones(400), np.linspace(1, 3, 60))
+        time = 30.0 * np.arange(len(depth))
+        for boiling, first, rows in (
+            (2.5 * usual[-1] * 1e3, "Forecast: already at 5 m", "15 of 4.* at 5 m, wh"),
+            (1e6, "No forecast: the log ends at 5 m with the caisson at rest", "5 m"),
+        ):
+            self.write_runs(boiling=boiling)
+            self.write_rows("time_s,depth_m,suction_kPa", time, depth, usual * rise)
+            said = self.said()
+            self.assertTrue(said.startswith(first), said)
+            self.assertRegex(said, rows)
+            self.assertIn("rested under growing suction at 5 m", said)
+            self.assertNotIn("stop of the pump", said)
+
+    def test_below_the_runs(self) -> None:
+        """Readings below the end of the runs are counted, and end the forecast."""
+        self.write_runs()
+        depth = np.arange(1.0, 9.8, 0.02)
+        suction = (
+            np.maximum(2.5e5 * depth + 0.9e5 * depth**2 - WEIGHT, 0) / AREA / 1e3
+        )
+        self.write_rows("depth_m,suction_kPa", depth, suction)
+        said = self.said()
+        self.assertIn(
+            "No forecast: the log goes to 9.78 m, and the runs end at 9", said
+        )
+        self.assertIn("35 readings below 9 m, where the runs end", said)
+
+    def test_not_of_this_caisson(self) -> None:
+        """Units that are wrong and another caisson are refused, and nothing written."""
+        self.write_runs()
+        depth = np.arange(1.0, 7.0, 0.02)
+        suction = np.maximum(np.interp(depth, DEPTH, BEST) - WEIGHT, 0) / AREA / 1e3
+        weight = np.full(len(depth), WEIGHT)
+        force = np.interp(depth, DEPTH, BEST)
+        for head, columns, text in (
+            ("depth_m,suction_Pa", (depth, suction), "the suction is 0.001 times"),
+            (
+                "depth_m,suction_MPa",
+                (depth, suction),
+                "the resistance is .* times that",
+            ),
+            (
+                "depth_m,suction_kPa,weight_kN",
+                (depth, suction, weight),
+                "the weight is 1",
+            ),
+            ("depth_m,resistance_kN", (depth, force), "the resistance is 1e.03 times"),
+            ("depth_m,suction_kPa", (3 * depth, suction), "the skirt is 10 m long"),
+            ("depth_m,suction_kPa", (-depth, suction), "the depth is negative"),
+        ):
+            self.write_rows(head, *columns)
+            with self.assertRaisesRegex(InputError, text):
+                self.said()
+        self.assertFalse((self.own / "vessel.csv").exists())
+
+    def test_columns_that_contradict(self) -> None:
+        """Suction and resistance: the allowable one is compared with the suction."""
+        self.write_runs(boiling=4e4)
+        depth = np.arange(1.0, 6.0, 0.02)
+        force = np.interp(depth, DEPTH, BEST) / 1e3
+        suction = np.full(len(depth), 50.0)
+        self.write_rows("depth_m,suction_kPa,resistance_kN", depth, suction, force)
+        said = self.said()
+        self.assertIn("250 of 250 readings have more suction than is allowed", said)
+        self.assertIn("The column of the resistance differs by -", said)
+
+    def test_gauges(self) -> None:
+        """Tilt and flow are held against what stops the vessel."""
+        self.write_runs()
+        depth = np.arange(1.0, 6.0, 0.02)
+        suction = np.maximum(np.interp(depth, DEPTH, BEST) - WEIGHT, 0) / AREA / 1e3
+        head = "depth_m,suction_kPa,tilt_deg"
+        for tilt, text in (
+            (0.3, "tilt 0.3° at 1 m."),
+            (-2.1, "tilt 2.1° at 1 m, above the 0.5° at which"),
+        ):
+            tilts = np.append(tilt, np.full(len(depth) - 1, tilt / 2))
+            self.write_rows(head, depth, suction, tilts)
+            self.assertIn(text, self.said())
+
+    def test_steady_log(self) -> None:
+        """A steady log of few readings has no stops, with a gap and in whole minutes;
+        one that rests under half the suction has one."""
+        self.write_runs()
+        for step, rest in ((0.02, 0), (0.3, 0), (0.05, 20)):
+            depth = np.arange(2.0, 7.0, step)
+            depth = depth[(depth < 4.4) | (depth > 5.2)]
+            middle = len(depth) // 3
+            depth = np.insert(depth, middle, np.full(rest, depth[middle]))
+            usual = np.maximum(np.interp(depth, DEPTH, BEST) - WEIGHT, 0) / AREA / 1e3
+            usual[middle : middle + rest] /= 2
+            gap = np.where(depth > 5, 0.8 / step, 0)
+            minutes = np.floor(0.5 * (np.arange(len(depth)) + gap))
+            self.write_rows("time_min,depth_m,suction_kPa", minutes, depth, usual)
+            said = self.said()
+            self.assertEqual("stop of the pump" in said, rest > 0, f"{step}: {said}")
+            self.assertNotIn("growing suction", said)
+
+    def test_last_steps(self) -> None:
+        """The factor of the end of a log is said where it is not that of all of it."""
+        self.write_runs()
+        self.write_log(BEST * np.where(DEPTH > 5.6, 2.0, 1.0), 6.0)
+        self.assertIn("Where the log ends it is 1.9", self.said())
+        self.write_log(BEST, 6.0)
+        self.assertNotIn("Where the log ends", self.said())
 
     def test_command(self) -> None:
         """Page, picture and table; and the blank sheet."""
@@ -446,6 +576,21 @@ class Reading(unittest.TestCase):
         self.assertIn("1 rows without depth and suction", log.remarks[0])
         self.assertIn("1 repeated rows", log.remarks[1])
         self.assertIn("were sorted", log.remarks[2])
+
+    def test_clock_that_starts_anew(self) -> None:
+        """The rows stay in their order where a clock starts anew; rows from the last
+        one to the first are turned about."""
+        depth, head = np.linspace(1, 3, 21), "time_s,depth_m,suction_kPa"
+        time = 10.0 * np.arange(21)
+        for times, way in (
+            (np.append(time[:12], time[:9]), 1),
+            (time, -1),
+        ):
+            rows = [f"{t:g},{z:g},10" for t, z in zip(times, depth)][::way]
+            log = self.read(head, *rows)
+            np.testing.assert_allclose(log.depth, depth)
+            self.assertTrue((np.diff(log.time) >= 0).all())
+            self.assertEqual("starts anew at 1 of" in " ".join(log.remarks), way > 0)
 
     def test_past_midnight(self) -> None:
         """A clock without a date goes on on the next day; rows that are not in order

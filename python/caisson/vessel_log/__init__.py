@@ -102,23 +102,23 @@ def write(directory: Path, measured: Path) -> tuple[list[Path], list[str]]:
     files, and what the log says. Raises InputError."""
     from caisson.vessel_log import forecast, picture, words
     from caisson.vessel_log.expected import expected_of
-    from caisson.vessel_log.measured import bins_of, read, weight_of
+    from caisson.vessel_log.measured import read
+    from caisson.vessel_log.steps import bins_of, weight_of
     from caisson.table import digits, write_csv
 
     log, expected = read(measured), expected_of(Results(directory))
     bins = bins_of(measured, log, expected)
     found = forecast.forecast_of(expected, bins, weight_of(log, expected))
-    said = words.said(expected, bins, forecast.fit_of(expected, bins), found)
-    said += words.left_out(log, expected, bins)
+    fit = forecast.fit_of(expected, bins)
+    said = words.said(expected, log, bins, fit, found)
     columns = columns_of(expected, bins, found)
     beyond = [expected.extrapolated_at(depth) for depth in columns["depth_m"]]
     numbers = [[digits(x, 4) for x in column] for column in columns.values()]
     rows = list(zip(*numbers, beyond))
-    on_page = [*said, *words.of_gauges(log)]
     files = [  # the table first, whose name the log may have
         write_csv(directory / TABLE, [*columns, EXTRAPOLATED], rows),
         picture.draw(directory / PICTURE, expected, log, bins, found),
-        write_page(directory / PAGE, expected, on_page, columns, beyond),
+        write_page(directory / PAGE, expected, said, columns, beyond),
     ]
     return files, said
 

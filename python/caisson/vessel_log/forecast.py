@@ -29,26 +29,29 @@ REACH = 2.05  # standard deviations
 COMMON = 0.5  # of the variance, the same at all depths
 CORRELATION = 0.1  # of the way, over which the other half changes
 NUGGET = 0.15  # of half a band, which no log tells
+LAST = 0.05  # of the way, whose steps are the last ones
 LEAST_NOISE = 0.02  # of the resistance of a step: gauges are not better
 
 
 class Bins(NamedTuple):
     """A log in steps of depth, [n] each: depth (m), resistance (kN) and its error as a
-    share of it; and the depths (m) of the steps that are left out, which have a stop.
-    """
+    share of it; and the depths (m) of the steps that are left out, as the pump rested,
+    and of those where the caisson rested under more than the ground held around."""
 
     depth: np.ndarray
     resistance: np.ndarray
     error: np.ndarray
     stops: tuple[float, ...] = ()
+    held: tuple[float, ...] = ()
 
 
 class Fit(NamedTuple):
     """The share of the band, and the factor on the best estimate, each with the ends of
-    its interval of 90 %: (value, low, high)."""
+    its interval of 90 %: (value, low, high); and the factor of the last steps alone."""
 
     share: tuple[float, float, float]
     factor: tuple[float, float, float]
+    last: float
 
 
 class Forecast(NamedTuple):
@@ -83,7 +86,9 @@ def fit_of(expected: Expected, bins: Bins) -> Fit:
         return float(np.mean(expected.resistance(bins.depth, shares) / best))
 
     ends = (middle, middle - error, middle + error)
-    return Fit(ends, (factor(ends[0]), factor(ends[1]), factor(ends[2])))
+    near = bins.depth > bins.depth[-1] - LAST * expected.planned
+    last = float(np.median((bins.resistance / best)[near]))
+    return Fit(ends, (factor(ends[0]), factor(ends[1]), factor(ends[2])), last)
 
 
 def noise_of(expected: Expected, bins: Bins) -> np.ndarray:

@@ -15,15 +15,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import median_filter
-
 from caisson.design import cone_file, cone_grid
 from caisson.design.cone_table import Rows, cell_of, is_number, value_of
 from caisson.design.cone_words import BRACKETS, plain
 from caisson import disk
 from caisson.disk import InputError
-from caisson.vessel_log.expected import Expected
-from caisson.vessel_log.forecast import LEAST_NOISE, Bins
 from caisson.terminal import printable
 
 
@@ -46,16 +42,13 @@ FILE = tomllib.loads(Path(__file__).with_name("quantities.toml").read_text("utf-
 UNITS = FILE.pop("units")
 QUANTITIES = {k: Quantity(**q | {"units": UNITS[q["units"]]}) for k, q in FILE.items()}
 EXAMPLE = "time_s, depth_m, suction_kPa, flow_m3/h, tilt_deg, weight_kN"
-SHARE = 0.01  # of the way: the length of a step
 NEEDED = {"depth", "suction", "weight", "resistance"}  # if there, to be understood
-LONG = 3.0  # times as long as its neighbors is a step with a stop
-LEAST_SUCTION = 0.03  # of the largest one, below which the weight may hang on a crane
-FEWEST = 3  # steps of a fit
 AROUND = 9  # readings whose median is the level at the middle one
 SPIKE = 3  # readings at most; a longer pulse is one of the pump or of the soil
 JUMP = 2.0  # times all readings around, above which a few are a spike
 END_JUMP = 4.0  # the same for the first and last, behind which no reading is normal
 QUIET = 0.1  # of the usual level, below which the pump may have stopped
+UPWARD = 2.0  # times the way up of the rows, by which an order of times is wrong
 MOST = 1e12  # in the unit of a quantity, beyond which a number means none
 # a day, and the time of the first one, on which clocks without dates count (s)
 DAY, CLOCKS = 86400.0, datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC).timestamp()
@@ -211,16 +204,35 @@ def past_midnight(time: np.ndarray) -> np.ndarray:
     return time + DAY * np.cumsum(np.diff(time, prepend=time[0]) < -DAY / 2)
 
 
+def started_anew(time: np.ndarray, depth: np.ndarray, remarks: list[str]) -> np.ndarray:
+    """Return times [n] (s), which go on where a clock has started anew: where the tip
+    goes down in the order of the rows, and not in that of their times."""
+    back = np.diff(time, prepend=time[0]) < 0
+
+    def way_up(order: np.ndarray) -> float:
+        return float(-np.diff(depth[order]).clip(max=0).sum())
+
+    in_time = way_up(np.argsort(time, kind="stable"))
+    if not back.any() or in_time <= UPWARD * way_up(np.arange(len(time))):
+        return time
+    remarks.append(
+        f"the clock starts anew at {back.sum()} of the rows, which stay in the order of"
+        " the file"
+    )
+    return time + np.cumsum(np.where(back, -np.diff(time, prepend=time[0]), 0.0))
+
+
 def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     """Return the rows [n, quantities] in the order of time, without those that are
-    repeated and without spikes. Raises InputError where suction is negative."""
+    repeated and without spikes. Raises InputError where suction or depth is negative.
+    """
     filled = np.nan_to_num(table, nan=-np.inf)  # an empty cell is like another
     once = table[np.sort(np.unique(filled, axis=0, return_index=True)[1])]
     if len(once) < len(table):
         remarks.append(f"{len(table) - len(once)} repeated rows are left out")
     has_time = bool(np.isfinite(once[:, 0]).all())
     if has_time:
-        once[:, 0] = past_midnight(once[:, 0])
+        once[:, 0] = started_anew(past_midnight(once[:, 0]), once[:, 1], remarks)
     if has_time and (np.diff(once[:, 0]) < 0).any():
         remarks.append("rows were not in the order of time, and were sorted")
     if has_time:
@@ -234,6 +246,11 @@ def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
         raise InputError(
             f"{path}: the suction is negative in most rows; write by how much the"
             " pressure below the lid is under that outside, as a positive number"
+        )
+    if np.median(columns["depth"]) < 0:
+        raise InputError(
+            f"{path}: the depth is negative in most rows; write how far the tip is"
+            " below the seabed, as a positive number"
         )
     columns["tilt"] = tilt_of(*(columns.pop(x) for x in ("tilt", "pitch", "roll")))
     return Log(**columns, remarks=tuple(map(printable, remarks)))
@@ -310,86 +327,3 @@ def without_spikes(
         found[name][spikes] = np.nan
     rows = np.isfinite(found["depth"])
     return {name: values[rows] for name, values in found.items()}
-
-
-def progress_of(log: Log) -> np.ndarray:
-    """Return the depth [n] that the tip has reached up to each row, without the noise
-    of single readings."""
-    if not np.isfinite(log.time).all() or len(log.depth) < 5:
-        return log.depth
-    return np.maximum.accumulate(median_filter(log.depth, 5, mode="nearest"))
-
-
-def weight_of(log: Log, expected: Expected) -> float:
-    """Return the weight in water (kN) at the end of a log, that of the scene where none
-    is measured."""
-    known = log.weight[np.isfinite(log.weight)]
-    return float(known[-1]) if len(known) else expected.weight
-
-
-def least_suction(log: Log, expected: Expected) -> float:
-    """Return the suction (kPa) below which the weight may hang on a crane: a share of
-    the largest one, or of the largest that is expected where that is less."""
-    known = log.suction[np.isfinite(log.suction)]
-    largest = level_of(known).max() if len(known) else 0.0
-    high = expected.suction(expected.high).max()
-    return LEAST_SUCTION * float(min(largest, high) if high > 0 else largest)
-
-
-def hangs(log: Log, expected: Expected) -> np.ndarray:
-    """Return in which rows [n] the weight may hang on a crane, so that the suction does
-    not tell the resistance."""
-    with np.errstate(invalid="ignore"):
-        is_low = log.suction <= least_suction(log, expected)
-        is_weighed = np.isfinite(log.weight) & (log.suction >= 0)
-    return np.asarray(is_low & ~is_weighed & ~np.isfinite(log.resistance))
-
-
-def resistance_of(log: Log, expected: Expected) -> np.ndarray:
-    """Return the resistance (kN) of each row [n]: that measured, or suction on the area
-    inside and the weight, that of the scene where none is measured; nan where the
-    weight alone may hang on a crane."""
-    weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
-    found = log.suction * expected.area + weight
-    found = np.where(hangs(log, expected), np.nan, found)
-    found = np.where(np.isfinite(log.resistance), log.resistance, found)
-    return np.where(found > 0, found, np.nan)
-
-
-def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
-    """Return the log in steps of depth, without those that have a stop. Raises
-    InputError where too little is left."""
-    depth, force = progress_of(log), resistance_of(log, expected)
-    width = SHARE * expected.planned
-    number = np.floor(depth / width)
-    inside = np.isfinite(force) & (depth >= expected.depth[0])
-    inside &= depth <= expected.depth[-1]
-    found, times = list[tuple[float, float, float]](), list[float]()
-    for k in np.unique(number[inside]):
-        rows = inside & (number == k)
-        logs = np.log(force[rows])
-        middle = float(np.median(logs))
-        scatter = 1.86 * float(np.median(np.abs(logs - middle))) / np.sqrt(len(logs))
-        error = max(LEAST_NOISE, scatter) if len(logs) > 2 else 2 * LEAST_NOISE
-        found.append((float(np.mean(depth[rows])), float(np.exp(middle)), error))
-        times.append(float(np.ptp(log.time[number == k])))
-    some = np.array(found).reshape(-1, 3)
-    keep = ~has_stop(np.array(times))
-    if keep.sum() < FEWEST:
-        last = depth.max()
-        raise InputError(
-            f"{path}: too few rows with suction lie between {expected.depth[0]:.3g} and"
-            f" {expected.depth[-1]:.3g} m, where the runs are, for a fit (the log goes"
-            f" to {last:.3g} m); it takes {FEWEST} steps of {width:.2g} m"
-        )
-    depths, forces, errors = some[keep].T
-    return Bins(depths, forces, errors, tuple(map(float, some[~keep, 0])))
-
-
-def has_stop(times: np.ndarray) -> np.ndarray:
-    """Return which steps took much longer than those within two places of each. times:
-    [n] (s), nan of a log without."""
-    if not np.isfinite(times).all():
-        return np.zeros(len(times), dtype=bool)
-    near = (times[max(i - 2, 0) : i + 3] for i in range(len(times)))
-    return np.asarray(times > LONG * np.array(list(map(np.median, near))) + 1e-9)

@@ -9,8 +9,20 @@ import numpy as np
 
 from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import Bins, Fit, Forecast
-from caisson.vessel_log.measured import Log, hangs, least_suction
+from caisson.vessel_log.measured import Log, level_of
+from caisson.vessel_log.steps import (
+    below_runs,
+    disagreement,
+    hangs,
+    least_suction,
+    progress_of,
+    suction_of,
+    weight_of,
+    width_of,
+)
 from caisson.template import say, say_rows
+from caisson.verdict import acceptance
+from caisson.verdict.installation import Rate, installation_of
 
 SENTENCES = Path(__file__).with_name("words.jinja")
 FEWEST = 3  # steps in a row that are outside of the band
@@ -69,21 +81,36 @@ def of_band(expected: Expected, bins: Bins) -> str:
 
 
 def measured_and_allowable(
-    expected: Expected, bins: Bins, weight: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return both suctions [n] (kPa) at the steps of a log; weight: in kN."""
-    limit = np.interp(bins.depth, expected.depth, expected.allowable)
-    return expected.suction(bins.resistance, weight), limit
+    expected: Expected, log: Log
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return depth (m), suction and allowable suction (kPa) of each reading [n] where
+    all are known."""
+    depth, suction = progress_of(log), suction_of(log, expected)
+    limit = np.interp(depth, expected.depth, expected.allowable, left=np.nan)
+    known = np.isfinite(suction) & np.isfinite(limit) & ~below_runs(log, expected)
+    return depth[known], suction[known], limit[known]
 
 
-def of_allowable(expected: Expected, bins: Bins, weight: float) -> str:
-    """Return where a measured suction is above the allowable one; weight: in kN."""
-    measured, limit = measured_and_allowable(expected, bins, weight)
-    if (begin := meets(bins.depth, measured, limit)) is None:
+def of_allowable(expected: Expected, log: Log) -> str:
+    """Return which readings have more suction than is allowed."""
+    depth, suction, limit = measured_and_allowable(expected, log)
+    over = np.flatnonzero(suction > np.maximum(limit, 0))
+    if not len(over):
         return ""
-    i = int(np.nanargmax(measured / limit))
-    worst = bins.depth[i], measured[i], limit[i]
-    return say(SENTENCES, "allowable", expected.run.shown, begin, *worst)
+    i = over[np.argmax(suction[over] - limit[over])]
+    counts, worst = (len(over), len(depth)), (depth[i], suction[i], limit[i])
+    begin = float(depth[over[0]])
+    return say(SENTENCES, "allowable", expected.run.shown, *counts, begin, *worst)
+
+
+def ends_above(expected: Expected, log: Log) -> bool:
+    """Return whether the last step of a log has more than the allowable suction, by
+    the median of readings that follow each other."""
+    depth, suction, limit = measured_and_allowable(expected, log)
+    if not len(depth):
+        return False
+    last = depth >= depth[-1] - width_of(expected)
+    return bool((level_of(suction) > limit)[last].any())
 
 
 def of_source(expected: Expected) -> str:
@@ -98,17 +125,20 @@ def extrapolations(expected: Expected, upto: float = np.inf) -> str:
     return say(SENTENCES, "extrapolations", expected.run.shown, parts)
 
 
-def of_forecast(expected: Expected, bins: Bins, forecast: Forecast) -> str:
-    """Return how far the caisson goes, and not where it is refused of a log that ends
-    with more than the allowable suction."""
-    measured, allowable = measured_and_allowable(expected, bins, forecast.weight)
-    if measured[-1] > allowable[-1]:
-        return say(SENTENCES, "is_above", expected.run.shown, float(bins.depth[-1]))
+def of_forecast(expected: Expected, log: Log, bins: Bins, forecast: Forecast) -> str:
+    """Return how far the caisson goes; or why nothing is known of that: the log is
+    deeper than the runs, or it ends with a refusal."""
+    shown, last = expected.run.shown, float(progress_of(log)[-1])
+    if below_runs(log, expected).any():
+        return say(SENTENCES, "is_below", shown, last, float(expected.depth[-1]))
+    if ends_above(expected, log):
+        return say(SENTENCES, "is_above", shown, last)
+    if bins.held and bins.held[-1] == bins.depth[-1]:
+        return say(SENTENCES, "is_held", shown, last)
     met = outcome_of(expected, forecast)
     limit = np.interp(forecast.depth, expected.depth, expected.allowable)
     share = float(np.max(forecast.high / limit)) if met.first is None else 0.0
     beyond = extrapolations(expected, np.inf if met.last is None else met.last)
-    shown = expected.run.shown
     return say(SENTENCES, "forecast", shown, forecast, met, share, beyond)
 
 
@@ -120,37 +150,51 @@ def of_end(expected: Expected) -> str:
     return say(SENTENCES, "end", expected.run.shown, end, planned)
 
 
-def left_out(log: Log, expected: Expected, bins: Bins) -> list[str]:
-    """Return what a fit does not use."""
-    hanging = int(hangs(log, expected).sum())
-    what = hanging, least_suction(log, expected), bins.stops
-    found = say_rows(SENTENCES, "left_out", expected.run.shown, *what)
+def of_readings(log: Log, expected: Expected, bins: Bins) -> list[str]:
+    """Return what reading a log came to, what a fit does not use, and where columns
+    contradict each other."""
+    depth, last = progress_of(log), float(expected.depth[-1])
+    above = int((depth < expected.depth[0]).sum()), float(expected.depth[0])
+    below = int(below_runs(log, expected).sum()), last
+    hanging = int(hangs(log, expected).sum()), least_suction(log, expected)
+    differs = disagreement(log, expected)
+    what = above, below, hanging, bins.stops, bins.held, differs
+    found = say_rows(SENTENCES, "readings", expected.run.shown, *what)
     remarks = [f"{text[0].upper()}{text[1:]}." for text in log.remarks]
     return remarks + [text for _, text in found]
 
 
-def of_gauges(log: Log) -> list[str]:
-    """Return what flow, tilt and weight have been."""
-    flow, weight = (x[np.isfinite(x)] for x in (log.flow, log.weight))
+def of_gauges(log: Log, expected: Expected) -> list[str]:
+    """Return what flow, tilt and weight have been, beside what stops the vessel."""
+    known = installation_of(expected.run, Rate())
+    assert known is not None  # it has a required suction
+    stop = acceptance.stop_of(expected.run, known, expected.planned)
+    flow = log.flow[np.isfinite(log.flow)]
     tilts = np.flatnonzero(np.isfinite(log.tilt))
     i = max(tilts, key=lambda row: abs(log.tilt[row]), default=None)
     found = say_rows(
         SENTENCES,
         "gauges",
+        expected.run.shown,
         flow.max() if len(flow) else None,
-        None if i is None else (log.tilt[i], log.depth[i]),
-        weight[-1] if len(weight) else None,
+        None if i is None else (abs(log.tilt[i]), log.depth[i]),
+        weight_of(log, expected) if np.isfinite(log.weight).any() else None,
+        stop,
     )
     return [text for _, text in found]
 
 
-def said(expected: Expected, bins: Bins, fit: Fit, forecast: Forecast) -> list[str]:
+def said(
+    expected: Expected, log: Log, bins: Bins, fit: Fit, forecast: Forecast
+) -> list[str]:
     """Return the sentences, that of the forecast first."""
     lines = (
-        of_forecast(expected, bins, forecast),
-        of_allowable(expected, bins, forecast.weight),
+        of_forecast(expected, log, bins, forecast),
+        of_allowable(expected, log),
         of_band(expected, bins),
-        say(SENTENCES, "fit", fit.factor, fit.share[0]),
+        say(SENTENCES, "fit", fit),
         of_end(expected),
+        *of_gauges(log, expected),
+        *of_readings(log, expected, bins),
     )
     return list(filter(None, lines))
