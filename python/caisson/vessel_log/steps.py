@@ -137,11 +137,9 @@ def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
             f" to {progress_of(log).max():.3g} m); it takes {FEWEST} steps of"
             f" {width:.2g} m"
         )
-    bins = Bins(
-        *some[keep].T,
-        tuple(map(float, some[stops, 0])),
-        tuple(map(float, some[held, 0])),
-    )
+    stopped, resting = (tuple(map(float, some[x, 0])) for x in (stops, held))
+    depths, forces, errors = some[keep].T
+    bins = Bins(depths, forces, errors, stopped, resting)
     refuse_force(path, log, bins, expected)
     return bins
 
