@@ -174,7 +174,9 @@ class Applicability(unittest.TestCase):
     def test_layers_that_the_tip_does_not_reach(self) -> None:
         site = self.site(LAYER, {**CLAY, "top_depth_m": 3})
         self.assertEqual(self.why(site, 2.9), [""] * 5 + [NOT_CLAY])
-        self.assertIn("layer 2 has no friction", self.why(site, 3.1)[0])
+        found = self.why(site, 3.1)
+        self.assertEqual([found[i] for i in (0, 1, 2, 5)], [""] * 4)
+        self.assertIn("layer 2 is clay, and the method is for sand", found[3])
 
     def test_bodies(self) -> None:
         """A cone or a cylinder is no caisson; a run that continues does not say."""

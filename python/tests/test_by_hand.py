@@ -370,7 +370,40 @@ class Layered(Scene):
             self.rest_of(run), bisected(best, 1.2e6, end=3.0), places=3
         )
         text = " ".join(self.text(run).split())
-        self.assertIn("Down to the clay, at 3 m, it is that of the methods for", text)
+        for name in ("Houlsby &amp; Byrne (2005)", "Senders &amp; Randolph (2009)"):
+            self.assertIn(f"{name}, clay by its strength", text)
+
+    def test_thin_seam(self) -> None:
+        """A seam of a centimeter changes the resistance by no more than its own: its
+        tip bears nothing of the sand only in it, and DNV, Houlsby & Byrne and Senders &
+        Randolph go on below it. No water flows through it."""
+        seam = {**CLAY, "top_depth_m": 4.0}
+        below = {**SAND, "top_depth_m": 4.01}
+        at = np.array([3.9, 4.5, 6.0, 8.0])
+        plain = self.scene(SAND, weight=1.2e6).columns_at(at)
+        run = self.scene(SAND, seam, below, weight=1.2e6)
+        found = run.columns_at(at)
+        ratio = found["total_force_N"] / plain["total_force_N"]
+        np.testing.assert_allclose(ratio, 1, atol=0.01)
+        s = (found["total_force_N"] - 1.2e6)[1:] / AREA
+        np.testing.assert_allclose(found["required_suction_Pa"][1:], s, rtol=1e-6)
+
+    def test_thin_cover(self) -> None:
+        """Mud of two centimeters is no plug of clay that water could lift: piping
+        limits the suction as in sand alone, and flow does not help. Mud of 20 cm is."""
+        at = np.array([2.0, 6.0])
+        plain = self.scene(SAND, weight=1.2e6)
+        for mud, name in ((0.02, limits.PIPING), (0.2, limits.LIFT)):
+            run = self.scene(CLAY, {**SAND, "top_depth_m": mud}, weight=1.2e6)
+            found = limits.limits_of(run, at)
+            self.assertEqual({limits.PIPING, limits.LIFT} & set(found), {name})
+            columns = run.columns_at(at)
+            s = (columns["total_force_N"] - 1.2e6) / AREA
+            np.testing.assert_allclose(columns["required_suction_Pa"], s)
+            if name == limits.PIPING:
+                wanted = limits.limits_of(plain, at)[name]
+                np.testing.assert_allclose(found[name], wanted)
+                self.assertIn("clay on top thinner than 2 %", self.text(run))
 
     def test_piping_above_clay(self) -> None:
         """Piping limits the suction down to the clay, at 10 h / (1 - a) kPa, on the

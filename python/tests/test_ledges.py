@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 from test_by_hand import AREA, CLAY, END, INNER, SAND, TIP, Scene, in_clay
-from test_methods import LINEAR, SKIRT, assert_forces
+from test_methods import LINEAR, SKIRT, assert_forces, dnv_beside
 
-from caisson.design import clay, dnv, houlsby_byrne, layered
+from caisson.design import clay, dnv, houlsby_byrne
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, Layer
 from caisson.evaluation import heave_of_wall
 from caisson.ledges import ledges_of
@@ -70,7 +70,7 @@ class Forces(unittest.TestCase):
         found = method.forces(4, "most probable")
         assert_forces(found, (tip + step + ring, 291.5398, 301.5929))
         layers = [clay.Layer(0, *self.of_clay), clay.Layer(2.5, 10e3, 0, 0, 0)]
-        both = layered.Layered(clay.Clay(self.skirt, layers), LINEAR)
+        both = dnv_beside(clay.Clay(self.skirt, layers))
         found = both.forces(4, "strip")
         np.testing.assert_allclose(found.tip / 1e3, tip + step + 168 * 4.20188, 2e-6)
 

@@ -25,6 +25,13 @@ def assert_forces(found: Forces, kilonewtons: tuple[float, float, float]) -> Non
     np.testing.assert_allclose(np.array(found) / 1e3, kilonewtons, rtol=2e-6)
 
 
+def dnv_beside(of_clay: clay.Clay) -> layered.Layered:
+    """Return DNV in the sand between clay, by the names of the cases of clay."""
+    soils = [(x.top, "" if x.strength else "sand") for x in of_clay.layers]
+    sand = dnv.method(of_clay.skirt, LINEAR, soils)
+    return layered.Layered(of_clay, sand, dict(zip(clay.CASES, dnv.CASES)))
+
+
 class ByHand(unittest.TestCase):
     """Forces at 4 m under a cone resistance of 2 MPa per meter."""
 
@@ -51,14 +58,14 @@ class ByHand(unittest.TestCase):
         the clay is below, 1 MN/m of the 16 are in the sand."""
         of_clay, of_sand = (9e3, 20e3, 10e3, 8e3), (10e3, 0, 0, 0)
         layers = [clay.Layer(0, *of_clay), clay.Layer(1, *of_sand)]
-        method = layered.Layered(clay.Clay(SKIRT, layers), LINEAR)
+        method = dnv_beside(clay.Clay(SKIRT, layers))
         for case, tip, wall in (("strip", 4448.495, 15), ("circle", 8896.990, 45)):
             walls = (10 + wall) * pi * 5.8, (8 + wall) * pi * 6
             assert_forces(method.forces(4, case), (tip, *walls))
         tip = 1.853540 * (9 + 7.5 * 20)
         assert_forces(method.forces(1, "strip"), (tip, 10 * pi * 5.8, 8 * pi * 6))
         layers = [clay.Layer(0, *of_sand), clay.Layer(1, *of_clay)]
-        method = layered.Layered(clay.Clay(SKIRT, layers), LINEAR)
+        method = dnv_beside(clay.Clay(SKIRT, layers))
         tip = 1.853540 * (10 + 9 + 9 * 20)
         walls = (3 + 10) * pi * 5.8, (3 + 8) * pi * 6
         assert_forces(method.forces(2, "circle"), (tip, *walls))

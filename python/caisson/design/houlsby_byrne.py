@@ -194,6 +194,8 @@ class Caisson:
         stresses beside it (Pa). added: to the unit weight, by flow."""
         low, high = sorted((inner, outer))
         layer = [layer for layer in self.layers if layer.top < h or layer.top <= 0][-1]
+        if not layer.friction_angle:  # clay, which another method treats
+            return 0.0
         n_q = bearing_factor_surcharge(layer.friction_angle)
         n_gamma = bearing_factor_weight(layer.friction_angle)
         weight = layer.weight_under(added)

@@ -1,33 +1,34 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Penetration resistance in layers of sand and clay.
 
-Clay has the adhesion and N_c s_u (clay), and sand k_p q_c and k_f q_c (dnv): friction
+Clay has the adhesion and N_c s_u (clay), and sand what a method for sand says: friction
 is summed over the layers, and the tip is in one of them, at a boundary in the upper
-one. The lower case is the strip with the most probable coefficients, the upper one the
-circle with the highest. A tip feels a layer before it is there, which is left out.
+one. Beside the lower case of the method for sand clay is a strip, and beside the upper
+one a circle. A tip feels a layer before it is there, which is left out, so that a thin
+layer bears as a thick one does.
 
 The forces are those of jacking. Suction takes from them in sand through which water
 flows up to the lid, not in sand below clay.
 """
-from caisson.design import dnv
+from collections.abc import Mapping
+from typing import Any
+
 from caisson.design.clay import CASES, Clay
-from caisson.design.cone import Profile
 from caisson.design.method import Forces
 
 
 class Layered:
     """The method for one caisson."""
 
-    cases = CASES
-
-    def __init__(self, clay: Clay, profile: Profile) -> None:
-        """clay: of all layers; profile: the cone resistance in those of sand."""
-        self.clay, self.profile = clay, profile
-        soils = [(x.top, "" if x.strength else "sand") for x in clay.layers]
-        self.sand = dnv.method(clay.skirt, profile, soils)
+    def __init__(self, clay: Clay, sand: Any, cases: Mapping[str, str]) -> None:
+        """clay: of all layers; sand: a method that has nothing in clay; cases: what its
+        cases are called here, the lower and the upper one, and any others."""
+        self.clay, self.sand = clay, sand
+        pairs = dict(zip(sand.cases, CASES))
+        self.pairs = {x: (pairs.get(y, CASES[0]), y) for x, y in cases.items()}
 
     def forces(self, h: float, case: str) -> Forces:
         """Return the forces at an embedment."""
-        clay = self.clay.forces(h, case)
-        sand = self.sand.forces(h, dnv.CASES[CASES.index(case)])
-        return Forces(*(a + b for a, b in zip(clay, sand)))
+        of_clay, of_sand = self.pairs[case]
+        pair = self.clay.forces(h, of_clay), self.sand.forces(h, of_sand)
+        return Forces(*(a + b for a, b in zip(*pair)))

@@ -19,7 +19,7 @@ quote them, and have not been checked against it.
 
 What suction takes from these forces: suction_installation.
 """
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from math import radians, sqrt, tan
 
 from caisson.design.cone import Coefficients, ConeMethod, Layer, Profile, Skirt
@@ -47,11 +47,17 @@ def method(
     skirt: Skirt,
     profile: Profile,
     walls: Sequence[tuple[float, float | None]] = ((0.0, None),),
+    clay: Collection[float] = (),
 ) -> ConeMethod:
     """Return the method for sand, whose strength follows from q_c. walls: the tops of
-    the layers (m) from the mudline down, and their own friction angle of the walls."""
+    the layers (m) from the mudline down, and their own friction angle of the walls;
+    clay: the tops of those that another method treats."""
+    nothing = dict.fromkeys(CASES, Coefficients(0.0, 0.0, 0.0))
     layers = [
-        Layer(top, {case: coefficients(skirt, case, own) for case in CASES})
+        Layer(
+            top,
+            nothing if top in clay else {x: coefficients(skirt, x, own) for x in CASES},
+        )
         for top, own in walls
     ]
     return ConeMethod(CASES, skirt, profile, layers)

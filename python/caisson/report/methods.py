@@ -240,7 +240,7 @@ def others_of(run: Results, h: float, answers: list[theory.Answer]) -> list[str]
             return []
         left = 1 - mine / suctions[suction_methods.CRITICAL_SENDERS_RANDOLPH][0]
     found, sentences, causes = list[str](), list[str](), dict[str, None]()
-    for answer in filter(lambda answer: answer.forces, answers):
+    for answer in (x for x in answers if x.forces and not x.beside):
         parts = {c: by_case(answer, c) for c in answer.method.all_cases}
         low, high = (parts[case] for case in answer.method.cases)
         ends = mine, low.total, high.total
@@ -348,9 +348,7 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
     name = "best: the mean" if run.by_hand else "computed"
     rows.append(cells(name, rest, own, here.required * 1e3))
     heads = map(shown.named, OVERVIEW)
-    top = theory.above_clay(site, depth) if run.by_hand else 0.0
-    clay = shown.place(top) if 0 < top < depth else ""
-    note = say(SENTENCES, "overview", bool(run.by_hand), clay, bool(run.ledges))
+    note = say(SENTENCES, "overview", bool(run.by_hand), bool(run.ledges))
     return {"heads": [*heads], "rows": rows, "note": note, "place": shown.place(depth)}
 
 

@@ -39,7 +39,8 @@ def given(run: Results, name: str) -> float:
 def factor_of(run: Results, depth: float) -> float:
     """Return a, the pressure at the tip over the suction, by Houlsby & Byrne. Raises
     NotApplicable."""
-    byrne = theory.houlsby_byrne_of(theory.site_of(run), depth)
+    site = theory.without_cover(theory.site_of(run))
+    byrne = theory.houlsby_byrne_of(site, depth)
     caisson = byrne.by_name[UNDISTURBED]
     slenderness = depth / caisson.outer_diameter
     return pressure_factor(slenderness, byrne.permeability_ratio)

@@ -2,13 +2,12 @@
 """A scene before its run: what hand methods say in the place of what is computed.
 
 The program makes one step of the scene, so that run.json has the body and the layers as
-it reads them. The columns of history.csv follow from the methods of design: in sand
-Houlsby & Byrne, DNV and Senders & Randolph, from the first clay on the strength of clay
-(with DNV in sand below it), where walls keep the friction of the sand above. The best
-estimate of each force is the mean of both cases of all of them; low and high are the
-forces of the least and of the largest case, in soil of low and of high resistance. The
-unified method, which is for piles long after driving, and Andersen et al., whose range
-is a scatter, stand beside them only.
+it reads them. The columns of history.csv follow from the methods of design: Houlsby &
+Byrne, DNV and Senders & Randolph, each of them with the strength of clay in clay. The
+best estimate of each force is the mean of both cases of all of them; low and high are
+the forces of the least and of the largest case, in soil of low and of high resistance.
+The unified method, which is for piles long after driving, and Andersen et al., whose
+range is a scatter, stand beside them only.
 
 Suction s bears what the weight W does not. While the tip is in sand above any clay, it
 takes from tip Q and inner friction F_i what Senders & Randolph say, else nothing:
@@ -66,13 +65,15 @@ def step(scene: Path, directory: Path, seconds: float = 0.0) -> None:
 def answers_of(site: theory.Site, depth: np.ndarray) -> list[theory.Answer]:
     """Return the methods that count, with their forces of jacking at embedments [n]
     (m): none where the cone test of one of them ends above the deepest. An assumed cone
-    does not count where it would not be deep, as beside a model."""
-    known = [theory.answer_of(theory.OF_CLAY, site, depth)]
-    if not known[0].forces:
-        methods = [method for method in theory.METHODS if method.in_mean]
-        found = [theory.answer_of(method, site, depth) for method in methods]
-        shallow = site.cone is None and depth.max() < DEEP
-        known = [x for x in found if x.forces and not (x.assumed and shallow)]
+    does not count beside another method where it would not be deep, as beside a model.
+    """
+    methods = [x for x in theory.METHODS if x.in_mean or x == theory.OF_CLAY]
+    found = [theory.answer_of(method, site, depth) for method in methods]
+    known = [x for x in found if x.forces]
+    if found[-1].forces:  # where there is clay: DNV counts with its strength
+        known = [x for x in known if x.beside or x is found[-1]]
+    if site.cone is None and depth.max() < DEEP:
+        known = [x for x in known if not x.assumed] or known
     is_known = all(np.isfinite(x.band("total")).all() for x in known)
     return known if is_known else []
 
@@ -158,36 +159,25 @@ class ByHand(Results):
     @functools.cached_property
     def sand_end(self) -> float:
         """The depth (m) down to which water flows around the tip."""
-        return theory.above_clay(self.site, self.end)
+        return theory.above_clay(theory.without_cover(self.site), self.end)
 
     @functools.cached_property
     def byrne(self) -> HoulsbyByrne | None:
         """Houlsby & Byrne, whose flow it is; None where it does not apply."""
         try:
-            return theory.houlsby_byrne_of(self.site, self.sand_end)
+            site = theory.without_cover(self.site)
+            return theory.houlsby_byrne_of(site, self.sand_end)
         except theory.NotApplicable:
             return None
 
     def forces_at(self, depth: np.ndarray) -> dict[str, np.ndarray]:
         """Return the forces of jacking at embedments [n] (m), by part (N). What applies
-        is decided by the layers down to the first clay, and below it to the end."""
-        top, n = self.sand_end, len(depth)
-        every = answers_of(self.site, np.concatenate([depth, [top, self.end]]))
+        is decided by the layers down to the end."""
+        every = answers_of(self.site, np.append(depth, self.end))
         if not every:
             raise ResultsError(self.why_not())
         found = forces_of(every, self.estimate)
-        in_sand = np.append(np.minimum(depth, top), top)
-        sand = answers_of(self.site, in_sand) if 0 < top < self.end else []
-        if not sand:
-            return {part: values[:n] for part, values in found.items()}
-        above, is_above = forces_of(sand, self.estimate), depth <= top
-        for part in theory.PARTS[:3]:
-            below = found[part][:n]
-            if part != "tip":
-                below = below - found[part][n] + above[part][:n]
-            found[part] = np.where(is_above, above[part][:n], below)
-        found["total"] = np.sum([found[part] for part in theory.PARTS[:3]], axis=0)
-        return found
+        return {part: values[:-1] for part, values in found.items()}
 
     def why_not(self) -> str:
         """Return why no method knows the forces."""

@@ -100,9 +100,15 @@ def why_absent(run: Results, kind: str) -> str:
         return "no water flows through the plug"
     if kind == LIMITS[REVERSE_BEARING].kind:
         try:
-            soils = theory.soils_of(theory.site_of(run), inf)
+            site = theory.site_of(run)
+            soils = theory.soils_of(site, inf)
         except theory.NotApplicable as reason:
             return str(reason)
+        if theory.without_cover(site) is not site:
+            share = 100 * theory.COVER
+            return (
+                f"clay on top thinner than {share:g} % of the diameter is none (custom)"
+            )
         return NONE_HERE if "clay" in dict(soils).values() else "no clay"
     if kind == LIMITS[PUMP].kind and pump_limit(run) is None:
         return "Water/Largest suction not given"

@@ -135,7 +135,8 @@ def rests_of(
 ) -> dict[str, float]:
     """Return the penetration by weight (m) in each case of a method, nan where it is
     deeper than deepest."""
-    known, weight = method.of_site(site, deepest), weight_of(site.scene)
+    known = theory.of_site(method, site, deepest)
+    weight = weight_of(site.scene)
     tops = [theory.top_of(entry) for _, entry in site.layers(deepest)]
 
     def rest(case: str) -> float:
@@ -152,15 +153,19 @@ def flow_above_clay(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return what flow does at embedments [n] (m): s_cr of Senders & Randolph, infinite
     where no water flows, and the suction of piping by Houlsby & Byrne, nan there, [n]
-    (Pa). Water flows while the tip is in sand above the first clay."""
+    (Pa). Water flows while the tip is in sand above the first clay. Below a thin cover
+    of clay it may, or may not: it pipes, and takes nothing from the forces."""
     critical, piping = np.full(len(depth), inf), np.full(len(depth), nan)
+    open_site = theory.without_cover(site)
+    is_covered, site = open_site is not site, open_site
     if end := theory.above_clay(site, float(depth.max())):
         with suppress(theory.NotApplicable):
             byrne = theory.houlsby_byrne_of(site, end)
             caisson, ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
             for i in np.flatnonzero(depth <= end):
                 h = float(depth[i])
-                critical[i] = installation.critical_suction(caisson, h)
+                if not is_covered:
+                    critical[i] = installation.critical_suction(caisson, h)
                 piping[i] = installation.piping_suction(caisson, h, ratio)
     return critical, piping
 

@@ -36,6 +36,8 @@ PARTS = ("tip", "inner friction", "outer friction", "total")
 ASSUMED_CONE = " (cone ASSUMED)"  # behind the name of a method
 CONTINUED = 0.5  # m, at the end of a cone test
 IN_SAND = ", DNV in sand"
+IN_CLAY = ", clay by its strength"
+COVER = 0.02  # of the diameter: clay on top that is no plug, and that water lifts off
 # in pictures, of Houlsby & Byrne with K0 tan(delta) and without enhancement
 LOWER_BOUND = "undisturbed ground (K0), a lower bound"
 
@@ -98,15 +100,20 @@ def sand_of(entry: Scene, number: int) -> Sand:
     return Sand(top_of(entry), weight, 0.5 if k0 is None else k0, density, angle or 0)
 
 
-def layers_of(site: Site, deepest: float) -> list[Layer]:
+def layers_of(site: Site, deepest: float, with_clay: bool = False) -> list[Layer]:
     """Return the layers of run.json down to a depth (m); one whose strength follows
-    from its density in pieces, with the friction angle of their middle. Raises
-    NotApplicable."""
+    from its density in pieces, with the friction angle of their middle. with_clay: one
+    of clay has neither that nor friction. Raises NotApplicable."""
     found, above = list[Layer](), list[Sand]()
     entries = site.layers(deepest)
     bottoms = [top_of(entry) for _, entry in entries[1:]] + [deepest]
     for (number, entry), bottom in zip(entries, bottoms):
-        layer, top = layer_of(entry, number), top_of(entry)
+        top, weight = top_of(entry), float(entry["submerged_unit_weight_N_m3"])
+        if with_clay and soil_of(entry, number) == "clay":
+            found.append(Layer(top, weight, 0.0, 0.0, 0.0))
+            above.append(Sand(top, weight, 0.5, 0.0, 0.0, is_clay=True))
+            continue
+        layer = layer_of(entry, number)
         above.append(sand_of(entry, number))
         n = max(int(np.ceil((bottom - top) / STEP - 1e-9)), 1)
         if entry.get("law") not in BY_DENSITY:
@@ -220,6 +227,20 @@ def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
     return [(top_of(x), soil) for _, x, soil in layers_with_soils(site, deepest)]
 
 
+def without_cover(site: Site) -> Site:
+    """Return a site where clay from the mudline down that is too thin for a plug is as
+    the sand below it: suction breaks it without harm, and then water flows."""
+    with suppress(NotApplicable):
+        diameter = skirt_of(site).outer_diameter
+        soils = soils_of(site, np.inf)
+        tops = [top for top, soil in soils if soil == "sand"]
+        if tops and 0 < tops[0] <= COVER * diameter:
+            layers = [dict(x) for _, x in site.layers(np.inf) if top_of(x) >= tops[0]]
+            layers[0]["top_depth_m"] = 0.0
+            return site._replace(scene={**site.scene, "layers": layers})
+    return site
+
+
 def above_clay(site: Site, deepest: float) -> float:
     """Return the depth (m), at most deepest, down to which all layers are sand: as long
     as the tip is above it, water flows around it into the plug."""
@@ -285,12 +306,14 @@ def cone_of(site: Site, deepest: float, with_clay: bool = False) -> Profile:
     return assumed_cone(tuple(sands), deepest)
 
 
-def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
-    """Return Houlsby and Byrne for a site, with the layers down to deepest (m). Raises
-    NotApplicable."""
+def houlsby_byrne_of(
+    site: Site, deepest: float, with_clay: bool = False
+) -> HoulsbyByrne:
+    """Return Houlsby and Byrne for a site, with the layers down to deepest (m).
+    with_clay: with nothing in layers of clay. Raises NotApplicable."""
     skirt = skirt_of(site)
     try:
-        layers = layers_of(site, deepest)
+        layers = layers_of(site, deepest, with_clay)
     except ResultsError as error:  # run.json lacks something
         raise NotApplicable(str(error)) from error
     refuse_undrained(site)
@@ -304,22 +327,30 @@ def houlsby_byrne_of(site: Site, deepest: float) -> HoulsbyByrne:
     )
 
 
-def dnv_of(site: Site, deepest: float) -> Method:
-    """Return DNV for a site. Raises NotApplicable."""
+def dnv_of(site: Site, deepest: float, with_clay: bool = False) -> Method:
+    """Return DNV for a site. with_clay: with nothing in layers of clay. Raises
+    NotApplicable."""
     skirt, soils = skirt_of(site), soils_of(site, deepest)
-    return dnv.method(skirt, cone_of(site, deepest), soils)
+    if with_clay:
+        soils = [(top, "" if soil == "clay" else soil) for top, soil in soils]
+    return dnv.method(skirt, cone_of(site, deepest, with_clay), soils)
 
 
-def senders_of(site: Site, deepest: float) -> Method:
+def senders_of(site: Site, deepest: float, with_clay: bool = False) -> Method:
     """Return Senders and Randolph for a site, where layers may have a friction angle of
-    the walls of their own. Raises NotApplicable."""
+    the walls of their own. with_clay: with nothing in layers of clay. Raises
+    NotApplicable."""
     skirt = skirt_of(site)
-    only(site, deepest, "sand")
+    if not with_clay:
+        only(site, deepest, "sand")
+    clay_tops = [top for top, soil in soils_of(site, deepest) if soil == "clay"]
     walls = [(top_of(x), x.get(OF_WALLS)) for _, x in site.layers(deepest)]
-    return senders_randolph.method(skirt, cone_of(site, deepest), walls)
+    cone = cone_of(site, deepest, with_clay)
+    return senders_randolph.method(skirt, cone, walls, clay_tops)
 
 
-OfSite = Callable[["Site", float], Method]  # layers down to a depth (m)
+OfSite = Callable[..., Method]  # of a site with layers down to a depth (m)
+IN_LAYERS = {"houlsby_byrne": houlsby_byrne_of, "senders_randolph": senders_of}
 
 
 def clay_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
@@ -343,10 +374,18 @@ def clay_of(site: Site, deepest: float) -> Method:
     skirt, soils = skirt_of(site), {soil for _, soil in soils_of(site, deepest)}
     if "clay" not in soils:
         only(site, deepest, "clay")
-    found = clay.Clay(skirt, clay_layers_of(site, deepest))
     if soils == {"clay"}:
-        return found
-    return layered.Layered(found, cone_of(site, deepest, with_clay=True))
+        return clay.Clay(skirt, clay_layers_of(site, deepest))
+    return in_layers(site, deepest, dnv_of, dict(zip(clay.CASES, dnv.CASES)))
+
+
+def in_layers(
+    site: Site, deepest: float, of_sand: OfSite, cases: Mapping[str, str]
+) -> layered.Layered:
+    """Return a method for sand in layers of sand and clay, where clay has its strength.
+    cases: what its cases are called here. Raises NotApplicable."""
+    of_clay = clay.Clay(skirt_of(site), clay_layers_of(site, deepest))
+    return layered.Layered(of_clay, of_sand(site, deepest, with_clay=True), cases)
 
 
 def known_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
@@ -370,7 +409,7 @@ def of_plug(
 ) -> Of | None:
     """Return what a function of plug_stability says of a plug of clay at embedments [n]
     (m); None without clay."""
-    layers = known_layers_of(site, float(depth.max()))
+    layers = known_layers_of(without_cover(site), float(depth.max()))
     return of(skirt_of(site), layers, depth) if layers else None
 
 
@@ -470,12 +509,12 @@ class Answer:
     forces: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     why_not: str = ""
     assumed: str = ""  # of a cone resistance: what it rests on
-    in_sand: str = ""  # behind the name of a method of clay: what sand beside it has
+    beside: str = ""  # behind the name: what the other soil has, sand or clay
 
     @property
     def name(self) -> str:
         """The name of the method, marked where its cone resistance is assumed."""
-        return self.method.name + self.in_sand + (ASSUMED_CONE if self.assumed else "")
+        return self.method.name + self.beside + (ASSUMED_CONE if self.assumed else "")
 
     @property
     def total(self) -> Beside:
@@ -496,10 +535,21 @@ def assumptions_in_words(scene: Scene) -> str:
     return say(SENTENCES, "assumptions", *assumed[:2], assumed.load_spread)
 
 
+def of_site(method: Description, site: Site, deepest: float) -> Method:
+    """Return a method for a site; one for sand that knows layers of clay beside it with
+    these. Raises NotApplicable."""
+    with suppress(NotApplicable):
+        soils = {soil for _, soil in soils_of(site, deepest)}
+        if soils == {"sand", "clay"} and method.key in IN_LAYERS:
+            cases = {x: x for x in method.all_cases}
+            return in_layers(site, deepest, IN_LAYERS[method.key], cases)
+    return method.of_site(site, deepest)
+
+
 def answer_of(method: Description, site: Site, depth: np.ndarray) -> Answer:
     """Return what a method says at embedments [n] (m)."""
     try:
-        known = method.of_site(site, float(depth.max()))
+        known = of_site(method, site, float(depth.max()))
     except NotApplicable as reason:
         return Answer(method, depth, why_not=str(reason))
     forces = dict[str, dict[str, np.ndarray]]()
@@ -507,10 +557,11 @@ def answer_of(method: Description, site: Site, depth: np.ndarray) -> Answer:
         rows = [known.forces(float(h), case) for h in depth]
         columns = np.array([[*row, row.total] for row in rows]).T
         forces[case] = dict(zip(PARTS, columns))
-    in_sand = IN_SAND if isinstance(known, layered.Layered) else ""
-    by_cone = ConeMethod, layered.Layered
-    assumed = known.profile.assumed if isinstance(known, by_cone) else ""
-    return Answer(method, depth, forces, assumed=assumed, in_sand=in_sand)
+    beside = ""
+    if isinstance(known, layered.Layered):
+        beside, known = IN_SAND if method == OF_CLAY else IN_CLAY, known.sand
+    assumed = known.profile.assumed if isinstance(known, ConeMethod) else ""
+    return Answer(method, depth, forces, assumed=assumed, beside=beside)
 
 
 def answers_of(site: Site, depth: np.ndarray) -> list[Answer]:
