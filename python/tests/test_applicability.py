@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from caisson.verdict import theory
+from caisson.verdict import suction_methods, theory
 from caisson.results import Read
 from caisson.design.cone import Profile
 
@@ -119,10 +119,10 @@ class Applicability(unittest.TestCase):
         self.assertNotIn("from 1 m", answer.assumed)
         at = np.array([2.0])
         for bottom, n in ((below, 2), ({**below, "law": "linear elastic"}, 1)):
-            found = theory.plug_limits(self.site(*layers[:2], bottom), at)
+            found = suction_methods.plug_limits(self.site(*layers[:2], bottom), at)
             self.assertEqual(len(found), n)
-        self.assertEqual(theory.plug_limits(self.site(LAYER), at), {})
-        self.assertEqual(theory.plug_limits(theory.Site({}), at), {})
+        self.assertEqual(suction_methods.plug_limits(self.site(LAYER), at), {})
+        self.assertEqual(suction_methods.plug_limits(theory.Site({}), at), {})
 
     def test_undrained_sand(self) -> None:
         for found in self.why(self.site(LAYER, level="undrained")):

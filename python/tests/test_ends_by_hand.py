@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Where the way down ends by hand methods, against calculations by hand."""
 import unittest
+from math import exp, pi
 
 import numpy as np
-from test_by_hand import AREA, CLAY, D, END, QC, SAND, Scene, WATER
+from test_by_hand import AREA, CLAY, D, END, INNER, QC, SAND, Scene, TIP, WALLS, WATER
 from test_by_hand import bisected, in_clay, parts_in_sand, suction_in_sand
 
 from caisson.design import shell
+from caisson.evaluation import GRADIENT
 from caisson.report import low_and_high, verdict
 from caisson.results import ResultsError
-from caisson.verdict import by_hand, limits, outcome, run_review, theory
+from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
+from caisson.verdict import theory
 
 
 class Ends(Scene):
@@ -181,6 +184,120 @@ class Ends(Scene):
             run = self.scene(CLAY, {**layer, "top_depth_m": 3.0})
             run.summary["entries"]["Water/Level"] = "seepage"
             self.assertEqual(run_review.review_of(run), ())
+
+
+class Layered(Scene):
+    """3 m of sand over clay."""
+
+    def test_forces_and_suction(self) -> None:
+        """As in sand alone down to the clay, whose friction comes to that of the sand;
+        flow only above it: s = (R - W) / (A + (Q + F_i) / s_cr), then (R - W) / A."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+
+        def best(h: float) -> float:
+            parts = parts_in_sand(min(h, 3.0)).mean(axis=0)
+            if h <= 3:
+                return float(parts.sum())
+            in_it = 10e3 * 3 + 8e3 * (h - 3) + 8.25 * 40e3
+            return float(parts[1:].sum() + WALLS * 20e3 * (h - 3) + TIP * in_it)
+
+        at = np.array([2.0, 5.0, 8.0])
+        found = run.columns_at(at)
+        for i, h in enumerate(at):
+            self.assertAlmostEqual(found["total_force_N"][i] / best(h), 1, places=3)
+            s = (best(h) - 1.2e6) / AREA
+            if h < 3:
+                s = suction_in_sand(h, parts_in_sand(h).mean(axis=0), 1.2e6)
+            self.assertAlmostEqual(found["required_suction_Pa"][i] / s, 1, places=3)
+        self.assertAlmostEqual(
+            self.rest_of(run), bisected(best, 1.2e6, end=3.0), places=3
+        )
+        text = " ".join(self.text(run).split())
+        for name in ("Houlsby &amp; Byrne (2005)", "Senders &amp; Randolph (2009)"):
+            self.assertIn(f"{name}, clay by its strength", text)
+
+    def test_thin_seam(self) -> None:
+        """A seam of a centimeter changes the resistance by no more than its own: its
+        tip bears nothing of the sand only in it, and DNV, Houlsby & Byrne and Senders &
+        Randolph go on below it. No water flows through it."""
+        seam = {**CLAY, "top_depth_m": 4.0}
+        below = {**SAND, "top_depth_m": 4.01}
+        at = np.array([3.9, 4.5, 6.0, 8.0])
+        plain = self.scene(SAND, weight=1.2e6).columns_at(at)
+        run = self.scene(SAND, seam, below, weight=1.2e6)
+        found = run.columns_at(at)
+        ratio = found["total_force_N"] / plain["total_force_N"]
+        np.testing.assert_allclose(ratio, 1, atol=0.01)
+        s = (found["total_force_N"] - 1.2e6)[1:] / AREA
+        np.testing.assert_allclose(found["required_suction_Pa"][1:], s, rtol=1e-6)
+
+    def test_thin_cover(self) -> None:
+        """Mud of two centimeters is no plug of clay that water could lift: piping
+        limits the suction as in sand alone, and flow does not help. Mud of 20 cm is."""
+        at = np.array([2.0, 6.0])
+        plain = self.scene(SAND, weight=1.2e6)
+        for mud, name in ((0.02, limits.PIPING), (0.2, limits.LIFT)):
+            run = self.scene(CLAY, {**SAND, "top_depth_m": mud}, weight=1.2e6)
+            found = limits.limits_of(run, at)
+            self.assertEqual({limits.PIPING, limits.LIFT} & set(found), {name})
+            columns = run.columns_at(at)
+            s = (columns["total_force_N"] - 1.2e6) / AREA
+            np.testing.assert_allclose(columns["required_suction_Pa"], s)
+            if name == limits.PIPING:
+                wanted = limits.limits_of(plain, at)[name]
+                np.testing.assert_allclose(found[name], wanted)
+                self.assertIn("clay on top thinner than 2 %", self.text(run))
+
+    def test_piping_above_clay(self) -> None:
+        """Piping limits the suction down to the clay, at 10 h / (1 - a) kPa, on the
+        page of a run, too; below it no water flows."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+        at = np.array([2.0, 2.9, 5.0])
+        piping = limits.limits_of(run, at)[limits.PIPING]
+        for h, found in zip(at[:2], piping):
+            a = 0.45 - 0.36 * (1 - exp(-h / D / 0.48))
+            self.assertAlmostEqual(found, 10 * h / (1 - a), places=9)
+        self.assertTrue(np.isnan(piping[2]))
+        share = run.columns_at(at)[GRADIENT]
+        needs = run.columns_at(at)["required_suction_Pa"] / 1e3
+        self.assertAlmostEqual(share[0], needs[0] / piping[0], places=9)
+        self.assertEqual(share[2], 0)
+        both = self.scene({**CLAY}, {**SAND, "top_depth_m": 3.0}, weight=1.2e6)
+        self.assertNotIn(limits.PIPING, limits.limits_of(both, at))
+
+    def test_methods_above_clay(self) -> None:
+        """The range of the method has the same flow as the best estimate."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        at = np.array([2.0, 5.0])
+        found = suction_methods.answers_of(run.site, at).in_clay
+        assert found is not None
+        ends = ((0.3, 0.001), (0.6, 0.003))
+        for (tip, wall), values in zip(ends, found.cases.values()):
+            k = QC * pi * 2.0 * wall
+            parts = np.array([TIP * tip * QC, k * INNER, k * D])
+            s = max(suction_in_sand(2.0, parts, 8e5), 0.0)
+            self.assertAlmostEqual(values[0], s, places=4)
+
+    def test_seal_above_clay(self) -> None:
+        """A caisson that rests in sand above clay has a seal."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
+        self.assertIn("Seal", self.text(run))
+
+    def test_pump(self) -> None:
+        """The card has the largest flow, in sand, and that at the largest suction."""
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        words = " ".join(self.text(run).split())
+        self.assertRegex(words, r"m³/h at 3.00 m and .*against 15.2 kPa, of which")
+        self.assertRegex(
+            words, r"; 50.3 m³/h at 8.00 m, against the largest suction, 1"
+        )
+
+    def test_basis_of_piping(self) -> None:
+        """That a factor on piping is missing counts where water flows."""
+        words = "a default and no design basis"
+        run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=8e5)
+        self.assertIn(words, self.text(run))
+        self.assertNotIn(words, self.text(self.scene(CLAY)))
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from caisson.design.seepage import houlsby_byrne, pressure_factor
 from caisson.design.suction_installation import (
     critical_suction,
     piping_suction,
+    share_at_tip,
     relieved_suction,
     required_suction,
     self_weight_penetration,
@@ -250,16 +251,50 @@ class HoulsbyByrne(unittest.TestCase):
     def test_piping_above_silt(self) -> None:
         """2 m of sand, 1 m of silt with a hundredth of its permeability and 3 m of
         sand: 102 of 105 parts of the head are lost above the base of the silt at 3 m,
-        where 30 kPa lie above; at h / D = 1 this is 30 * 105 / 102 / (1 - a). Where
-        all have one permeability, or one is not known, it is 60 kPa / (1 - a)."""
-        a = 0.45 - 0.36 * (1 - exp(-1 / 0.48))
-        for silt, kilopascals in ((1e-6, 30.88235), (1e-4, 60), (0, 60)):
+        where 30 kPa lie above; at h / D = 1 this is 30 * 105 / 102 / (1 - a), with the
+        a of a plug that has 6 / 105 of 1 / 1e-4 s. Where all have one permeability, or
+        one is not known, it is 60 kPa / (1 - a)."""
+        whole = 0.45 - 0.36 * (1 - exp(-1 / 0.48))
+        less = whole * 6 / 105 / (1 - whole + whole * 6 / 105)
+        for silt, kilopascals, a in (
+            (1e-6, 30.88235, less),
+            (1e-4, 60, whole),
+            (0, 60, whole),
+        ):
             layers = [
                 Layer(top, 10e3, 30, K, permeability=k)
                 for top, k in ((0, 1e-4), (2, silt), (3, 1e-4))
             ]
             found = piping_suction(caisson(False, layers), 6)
             self.assertAlmostEqual(found / 1e3, kilopascals / (1 - a), places=4)
+
+    def test_permeable_ground_below(self) -> None:
+        """The share at the tip against finite differences of own, whose share is the
+        mean over the base of the plug: never more, and at most 0.08 less. Gravel below
+        clay does not count."""
+        ground: list[tuple[float, float, list[tuple[float, float]], float]] = [
+            (10, 4.9, [(0, 1e-4), (5, 1e-2)], 0.038),
+            (10, 5.1, [(0, 1e-4), (5, 1e-2)], 0.014),
+            (10, 7.0, [(0, 1e-5), (3, 1e-4)], 0.083),
+            (9, 6.0, [(0, 1e-4), (6.5, 1e-3)], 0.120),
+            (10, 7.0, [(0, 1e-4), (6, 3e-4)], 0.143),
+            (10, 5.0, [(0, 1e-4), (5.1, 5e-4)], 0.144),
+            (10, 2.0, [(0, 1e-4), (7.0, 1e-2)], 0.524),
+            (6, 6.0, [(0, 1e-4), (2, 1e-6), (3, 1e-4)], 0.023),
+            (8, 4.0, [(0, 1e-4), (4.5, 1e-2), (5, 1e-4)], 0.138),
+        ]
+        for diameter, h, rows, wanted in ground:
+            layers = [Layer(top, 10e3, 30, K, permeability=k) for top, k in rows]
+            known = [layer for layer in layers if layer.top < h]
+            below = rows[len(known) :]
+            body = Caisson(diameter, T, known, 25, 25, below=below)
+            found = share_at_tip(body, h)
+            plain = pressure_factor(h / diameter)
+            self.assertTrue(found <= min(wanted, plain), (rows, found))
+            self.assertGreater(found, min(wanted, plain) - 0.1)
+            below = [(h + 0.01, 1e-9), *((top + 1, k) for top, k in below)]
+            body = Caisson(diameter, T, layers[:1], 25, 25, below=below)
+            self.assertEqual(share_at_tip(body, h), plain)
 
 
 class SendersRandolph(unittest.TestCase):

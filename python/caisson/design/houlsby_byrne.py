@@ -144,11 +144,14 @@ class Caisson:
         spread: float | None = None,
         k_tan_delta: tuple[float, float] | None = None,
         ledges: Sequence[Ledge] = (),
+        below: Sequence[tuple[float, float]] = (),
     ) -> None:
         """diameter: outer one; layers: from the surface down; spread: m, None without
         stress enhancement; k_tan_delta: K tan(delta) of the inner and the outer wall,
-        None for undisturbed ground."""
+        None for undisturbed ground; below: (top, permeability) of the layers that go
+        on below these."""
         self.outer_diameter, self.t = diameter, wall_thickness
+        self.below = below
         self.ledges = ledges
         self.layers = sorted(layers, key=lambda layer: layer.top)
         self.enhanced = spread is not None
@@ -264,13 +267,15 @@ def method(
     friction_angles: tuple[float, float],
     assumed: Assumptions,
     ledges: Sequence[Ledge] = (),
+    below: Sequence[tuple[float, float]] = (),
 ) -> HoulsbyByrne:
-    """Return the method for sand. friction_angles: of the inner and outer wall."""
+    """Return the method for sand. friction_angles: of the inner and outer wall; below:
+    (top, permeability) of layers below these."""
     geometry = diameter, wall_thickness, layers, *friction_angles
     ranges = zip(assumed.k_tan_delta_inside, assumed.k_tan_delta_outside)
     by_name = {
-        name: Caisson(*geometry, assumed.load_spread, pair, ledges)
+        name: Caisson(*geometry, assumed.load_spread, pair, ledges, below)
         for name, pair in zip(HoulsbyByrne.cases, ranges)
     }
-    by_name[UNDISTURBED] = Caisson(*geometry, ledges=ledges)
+    by_name[UNDISTURBED] = Caisson(*geometry, ledges=ledges, below=below)
     return HoulsbyByrne(by_name, assumed.plug_permeability_ratio)

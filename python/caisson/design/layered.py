@@ -24,6 +24,8 @@ class Layered:
         """clay: of all layers; sand: a method that has nothing in clay; cases: what its
         cases are called here, the lower and the upper one, and any others."""
         self.clay, self.sand = clay, sand
+        lower, upper, *_ = cases
+        self.cases = lower, upper
         pairs = dict(zip(sand.cases, CASES))
         self.pairs = {x: (pairs.get(y, CASES[0]), y) for x, y in cases.items()}
 

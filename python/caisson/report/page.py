@@ -12,7 +12,7 @@ from caisson.template import picture_of, say, say_rows, template
 from caisson import evaluation, plot
 from caisson.band import BEST
 from caisson.verdict import by_hand, installation, limits, outcome, retrieval
-from caisson.verdict import run_review, theory
+from caisson.verdict import run_review, suction_methods, theory
 from caisson.disk import is_locked
 from caisson.progress import duration
 from caisson.needed import JAVASCRIPT, SCRIPTS
@@ -243,7 +243,7 @@ def of_installation(
     sources = limits.sources_of(run, found.limits)
     rings = limits.rings_counted(run, found.depth)
     site = theory.site_of(run)
-    tops = theory.of_plug(site, found.depth, plug_stability.uncovered) or []
+    tops = suction_methods.of_plug(site, found.depth, plug_stability.uncovered) or []
     bounds = found.required_bounds if found.has_suction else found.force_bounds
     reach = bounds.end if bounds else None, found.depth[-1]
     way = installation.way_to_an_error(run)

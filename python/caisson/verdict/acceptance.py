@@ -14,7 +14,7 @@ import numpy as np
 from caisson.band import BEST, band_of
 from caisson.design import buckets, sealing, shell
 from caisson.design.houlsby_byrne import UNDISTURBED
-from caisson.design.seepage import pressure_factor
+from caisson.design.suction_installation import share_at_tip
 from caisson.evaluation import DEPTH, SUCTION, at_depths
 from caisson.results import Results, Table
 from caisson.verdict import disturbed, limits, suction_methods, theory
@@ -42,8 +42,7 @@ def factor_of(run: Results, depth: float) -> float:
     site = theory.without_cover(theory.site_of(run))
     byrne = theory.houlsby_byrne_of(site, depth)
     caisson = byrne.by_name[UNDISTURBED]
-    slenderness = depth / caisson.outer_diameter
-    return pressure_factor(slenderness, byrne.permeability_ratio)
+    return share_at_tip(caisson, depth, byrne.permeability_ratio)
 
 
 class Seal(NamedTuple):

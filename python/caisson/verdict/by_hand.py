@@ -34,7 +34,6 @@ from caisson.band import BEST, ESTIMATES, HIGH, LOW, member_of, why_not
 from caisson.design import suction_installation as suction
 from caisson.design.own_cone import DIAMETER
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
-from caisson.design.seepage import pressure_factor
 from caisson.evaluation import BOILING, DEPTH, GRADIENT, HEAVE, SUCTION, TOTAL
 from caisson.evaluation import UNDER_WEIGHT, heave_of_ledges
 from caisson.results import Results, ResultsError, Table
@@ -245,7 +244,7 @@ class ByHand(Results):
         ratio, flow, share = self.byrne.permeability_ratio, [], []
         flowing = np.where(depth <= self.sand_end, np.maximum(required, 0.0), 0.0)
         for h, s in zip(map(float, depth), flowing):
-            left = 1 - pressure_factor(h / caisson.outer_diameter, ratio)
+            left = 1 - suction.share_at_tip(caisson, h, ratio)
             gradient = left * s / (WATER * h) if h > 0 else 0.0
             area = suction.plug_area(caisson)
             flow.append(ratio * self.permeability_at(h) * gradient * area)

@@ -19,7 +19,7 @@ from caisson import curves
 from caisson.evaluation import DEPTH, EXPECTED_HEAVE, GRADIENT, HEAVE
 from caisson.evaluation import at_depths, rest_of
 from caisson.runner import command_for
-from caisson.verdict import design, limits, theory
+from caisson.verdict import design, limits, suction_methods, theory
 from caisson.results import Results, Table
 from caisson.table import NOTHING, in_units, text_of
 from caisson.shown import USUAL, Units
@@ -285,7 +285,7 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
     found.absent = limits.absent_of(run, found.limits)
     if run.assumes("Water depth"):
         found.assumes[limits.BOILING] = ", of a water depth that is ASSUMED"
-    found.soft_below = theory.soft_below(theory.site_of(run), at)
+    found.soft_below = suction_methods.soft_below(theory.site_of(run), at)
     found.rest = rest_of(run)
     if scene.get("diameter_m"):
         if "seepage_flow_m3_s" in numbers:

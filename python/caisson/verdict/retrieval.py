@@ -11,7 +11,7 @@ from caisson.curves import way_up
 from caisson.design import retrieval
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.results import Results
-from caisson.verdict import limits, theory
+from caisson.verdict import limits, suction_methods, theory
 from caisson.verdict.installation import around_tops, plug_area
 
 SUCTION_COLUMN = "suction_Pa"
@@ -86,7 +86,7 @@ def limits_of(run: Results, at: np.ndarray) -> dict[str, np.ndarray]:
     """Return the limits of the overpressure (Pa) at depths [n]; none where the ground
     or the wall is not known."""
     site, deepest = theory.site_of(run), float(at.max())
-    layers, wall = theory.known_layers_of(site, deepest), limits.wall_of(run)
+    layers, wall = suction_methods.known_layers_of(site, deepest), limits.wall_of(run)
     ratios = [entry.get("K0") for _, entry in site.layers(np.inf)][: len(layers)]
     if not layers or wall is None or None in ratios:
         return {}

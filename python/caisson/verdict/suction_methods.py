@@ -9,20 +9,24 @@ the forces of jacking. While the tip is in sand above the first clay, water flow
 it: piping by Houlsby & Byrne limits the suction, and flow takes from the forces what
 Senders & Randolph say, as if the clay were sand (assumed).
 """
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from math import inf, nan, pi
+from typing import TypeVar
 
 import numpy as np
 
 from caisson.verdict import theory
+from caisson.design import plug_stability
 from caisson.design import suction_installation as installation
-from caisson.design.cone import ConeMethod
+from caisson.design.clay import Layer
+from caisson.design.cone import ConeMethod, Skirt
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
 from caisson.design.method import Forces, Method
 from caisson.design.seepage import feld, ibsen_thilsted
 
+Of = TypeVar("Of")
 WEIGHT = "submerged_weight_N"  # of run.json
 HOULSBY_BYRNE = "Houlsby & Byrne (2005)"
 LOW, HIGH = "houlsby_byrne_low_Pa", "houlsby_byrne_high_Pa"
@@ -148,6 +152,47 @@ def rests_of(
     return {case: rest(case) for case in method.cases}
 
 
+def known_layers_of(site: theory.Site, deepest: float) -> list[Layer]:
+    """Return the layers of clay and sand as far down as they are known; none where not
+    all are known down to a depth (m), or of no caisson."""
+    tops = [theory.top_of(entry) for _, entry in site.layers(np.inf)]
+    with suppress(theory.NotApplicable):
+        theory.skirt_of(site)
+        theory.soils_of(site, deepest)
+        below = sorted(filter(deepest.__lt__, tops), reverse=True)
+        for end in [np.inf, *below, deepest]:
+            with suppress(
+                theory.NotApplicable
+            ):  # far below the tip they may be unknown
+                return theory.clay_layers_of(site, end)
+    return []
+
+
+def of_plug(
+    site: theory.Site,
+    depth: np.ndarray,
+    of: Callable[[Skirt, list[Layer], np.ndarray], Of],
+) -> Of | None:
+    """Return what a function of plug_stability says of a plug of clay at embedments [n]
+    (m); None without clay."""
+    layers = known_layers_of(theory.without_cover(site), float(depth.max()))
+    return of(theory.skirt_of(site), layers, depth) if layers else None
+
+
+def plug_limits(site: theory.Site, depth: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
+    [n]; none without clay."""
+    return of_plug(site, depth, plug_stability.allowable) or {}
+
+
+def soft_below(site: theory.Site, depth: np.ndarray) -> np.ndarray:
+    """Return the top of the soft layer below the tip that governs reverse bearing (m),
+    [n] at embedments [n]; nan where the clay at the tip does, or where there is none.
+    """
+    found = of_plug(site, depth, plug_stability.soft_below)
+    return np.full(len(depth), np.nan) if found is None else found
+
+
 def flow_above_clay(
     site: theory.Site, depth: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -214,7 +259,7 @@ def limits_at(
     them, in less time."""
     critical, piping = flow_above_clay(site, depth)
     is_all = np.isfinite(piping).all()
-    return critical, piping, {} if is_all else theory.plug_limits(site, depth)
+    return critical, piping, {} if is_all else plug_limits(site, depth)
 
 
 def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:

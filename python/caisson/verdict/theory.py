@@ -5,11 +5,12 @@ hold, and why not where they do not.
 Layers that the tip does not reach do not count.
 """
 import functools
+import itertools
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from caisson.density_law import BY_DENSITY
 from caisson.results import Results, ResultsError
 from caisson.template import say
 from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
-from caisson.design import plug_stability, senders_randolph, unified
+from caisson.design import senders_randolph, unified
 from caisson.design.assumed_cone import STEP, Sand, SandGround, assumed_cone
 from caisson.design.cone import ConeMethod, Profile, Skirt, of_run
 from caisson.design.houlsby_byrne import UNDISTURBED, Assumptions, HoulsbyByrne, Layer
@@ -25,7 +26,6 @@ from caisson.design.method import Method
 from caisson.ledges import FLUSH, ledges_of
 
 Scene = Mapping[str, Any]
-Of = TypeVar("Of")
 SENTENCES = Path(__file__).with_name("words.jinja")
 # The law whose strength is one friction angle; run.json names the law of a layer.
 MOHR_COULOMB = "Mohr-Coulomb"
@@ -324,7 +324,16 @@ def houlsby_byrne_of(
         (skirt.inner_friction_angle, skirt.outer_friction_angle),
         assumptions_of(site.scene),
         skirt.ledges,
+        permeabilities_below(site, deepest),
     )
+
+
+def permeabilities_below(site: Site, deepest: float) -> list[tuple[float, float]]:
+    """Return (top, permeability) of the layers below a depth (m), down to the first
+    whose permeability is not known."""
+    every = [x for _, x in site.layers(np.inf) if top_of(x) >= deepest]
+    pairs = [(top_of(x), float(x.get("permeability_m_s") or 0)) for x in every]
+    return list(itertools.takewhile(lambda pair: pair[1] > 0, pairs))
 
 
 def dnv_of(site: Site, deepest: float, with_clay: bool = False) -> Method:
@@ -386,45 +395,6 @@ def in_layers(
     cases: what its cases are called here. Raises NotApplicable."""
     of_clay = clay.Clay(skirt_of(site), clay_layers_of(site, deepest))
     return layered.Layered(of_clay, of_sand(site, deepest, with_clay=True), cases)
-
-
-def known_layers_of(site: Site, deepest: float) -> list[clay.Layer]:
-    """Return the layers of clay and sand as far down as they are known; none where not
-    all are known down to a depth (m), or of no caisson."""
-    tops = [top_of(entry) for _, entry in site.layers(np.inf)]
-    with suppress(NotApplicable):
-        skirt_of(site)
-        soils_of(site, deepest)
-        below = sorted(filter(deepest.__lt__, tops), reverse=True)
-        for end in [np.inf, *below, deepest]:
-            with suppress(NotApplicable):  # far below the tip they may be unknown
-                return clay_layers_of(site, end)
-    return []
-
-
-def of_plug(
-    site: Site,
-    depth: np.ndarray,
-    of: Callable[[Skirt, list[clay.Layer], np.ndarray], Of],
-) -> Of | None:
-    """Return what a function of plug_stability says of a plug of clay at embedments [n]
-    (m); None without clay."""
-    layers = known_layers_of(without_cover(site), float(depth.max()))
-    return of(skirt_of(site), layers, depth) if layers else None
-
-
-def plug_limits(site: Site, depth: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the suctions (Pa) at which a plug of clay gives way, [n] at embedments
-    [n]; none without clay."""
-    return of_plug(site, depth, plug_stability.allowable) or {}
-
-
-def soft_below(site: Site, depth: np.ndarray) -> np.ndarray:
-    """Return the top of the soft layer below the tip that governs reverse bearing (m),
-    [n] at embedments [n]; nan where the clay at the tip does, or where there is none.
-    """
-    found = of_plug(site, depth, plug_stability.soft_below)
-    return np.full(len(depth), np.nan) if found is None else found
 
 
 class Description(NamedTuple):
