@@ -8,7 +8,7 @@ from synthetic import write_columns
 from test_report import SCENE, SUMMARY, WithPage, leave_run
 
 import caisson.report as report
-from caisson.design import buckets, sealing
+from caisson.design import buckets, retrieval, sealing
 from caisson.report import acceptance as shown
 from caisson.results import Results
 from caisson.verdict import acceptance, disturbed, limits, outcome
@@ -112,14 +112,31 @@ class Rows(WithRun):
         self.assertAlmostEqual(grout.volume, 175.8, delta=0.2)
         self.assertAlmostEqual(grout.ends[0], 2.275 - 0.0433, delta=1e-3)
         self.assertAlmostEqual(grout.ends[1], 2.275 + 0.0433, delta=1e-3)
-        self.assertAlmostEqual(grout.piping, 175.3, delta=0.3)
-        self.assertAlmostEqual(grout.lifts, 12.94, delta=0.01)
+        pressures = grout.pressures
+        self.assertEqual([*pressures][:2], [acceptance.LIFTED, retrieval.OUTWARD])
+        self.assertAlmostEqual(pressures[retrieval.OUTWARD], 175.3, delta=0.3)
+        self.assertAlmostEqual(pressures[acceptance.LIFTED], 12.94, delta=0.01)
         page = self.words()
         words = "176 m³ at 4.5 m, in a gap of 2.27 m, 2.23 m to 2.32 m"
-        self.assertTrue(words in page, words)
-        self.assertTrue(
-            "at most 12.9 kPa (it lifts the caisson; piping outside" in page
-        )
+        self.assertIn(words, page)
+        words = "at most 12.9 kPa (the caisson is lifted); beyond that: piping outside"
+        self.assertIn(words, page)
+
+    def test_grout_in_clay(self) -> None:
+        """Beside the tip the ground cracks at K0 sigma'_v + s_u: 0.5 * 9 * 4.5 + 10
+        = 30.25 kPa, below the 38.8 kPa that lift 3 MN."""
+        of_clay = {"friction_angle_deg": 0.0, "cohesion_Pa": 1e4}
+        layers = [{**layer, **of_clay} for layer in SCENE["layers"]]
+        scene = {**SKIRT, "layers": layers, "submerged_weight_N": 3e6}
+        leave_run(self.path, {**SUMMARY, "scene": scene, "entries": {}})
+        run = Results(self.path)
+        assert (found := outcome.whole_way(run)) is not None
+        grout = acceptance.grout_of(run, found)
+        assert grout is not None
+        depth = grout.depth
+        crack = 0.5 * 9 * depth + 10
+        self.assertAlmostEqual(grout.pressures[retrieval.FRACTURE], crack, delta=0.1)
+        self.assertEqual(next(iter(grout.pressures)), retrieval.FRACTURE)
 
     def test_scour(self) -> None:
         """2 of 4.5 m; of the friction outside, 0.1 * 5 kPa * 31 m2 (0.5 + 1.5 + 2.5 +

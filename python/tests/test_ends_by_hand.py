@@ -11,7 +11,14 @@ from caisson.design import shell
 from caisson.evaluation import GRADIENT
 from caisson.report import low_and_high, verdict
 from caisson.results import ResultsError
-from caisson.verdict import by_hand, limits, outcome, run_review, suction_methods
+from caisson.verdict import (
+    acceptance,
+    by_hand,
+    limits,
+    outcome,
+    run_review,
+    suction_methods,
+)
 from caisson.verdict import theory
 
 
@@ -282,6 +289,21 @@ class Layered(Scene):
         """A caisson that rests in sand above clay has a seal."""
         run = self.scene(SAND, {**CLAY, "top_depth_m": 3.0}, weight=1.2e6)
         self.assertIn("Seal", self.text(run))
+
+    def test_seal_with_high_resistance(self) -> None:
+        """The seal is held against where high resistance lets it rest, too."""
+        run = self.scene(SAND, weight=4e6)
+        members = {x: by_hand.ByHand(run.directory, x) for x in ("low", "high")}
+        best = by_hand.band_of({**members, "best": by_hand.ByHand(run.directory)})
+        assert (found := outcome.whole_way(best)) is not None
+        assert (seal := acceptance.seal_of(best, found)) is not None
+        rest, allowed = seal.shallow
+        self.assertEqual(rest, members["high"].rest)
+        self.assertLess(rest, seal.rest)
+        left = 1 - (0.45 - 0.36 * (1 - exp(-rest / D / 0.48)))
+        self.assertAlmostEqual(allowed, 10 * rest / left, places=3)
+        text = " ".join(self.text(best).split())
+        self.assertIn(f"with high resistance it rests at {rest:.2f} m: ", text)
 
     def test_pump(self) -> None:
         """The card has the largest flow, in sand, and that at the largest suction."""

@@ -12,12 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from caisson.band import BEST, band_of
-from caisson.design import buckets, sealing, shell
+from caisson.design import buckets, retrieval, sealing, shell
 from caisson.design.houlsby_byrne import UNDISTURBED
 from caisson.design.suction_installation import share_at_tip
-from caisson.evaluation import DEPTH, SUCTION, at_depths
+from caisson.evaluation import DEPTH, SUCTION, at_depths, rest_of
 from caisson.results import Results, Table
 from caisson.verdict import disturbed, limits, suction_methods, theory
+from caisson.verdict import retrieval as overpressures
 from caisson.verdict.installation import NOTHING, Installation, plug_area
 
 START, SCOUR, TILT = "Suction at the start", "Scour depth", "Largest tilt"
@@ -49,7 +50,8 @@ class Seal(NamedTuple):
     """Where the caisson rests by its weight: the first suction that the seal allows by
     its factor, the one that is applied (0 if it is not given), the exit gradient under
     it, or else under the one that is allowed, the critical one, and the least embedment
-    for it, nan where it is not known."""
+    for it, nan where it is not known; and where it rests with high resistance, with
+    what is allowed there, nan without that."""
 
     rest: float
     allowed: float
@@ -57,6 +59,7 @@ class Seal(NamedTuple):
     gradient: float
     critical: float
     least: float
+    shallow: tuple[float, float]
 
     @property
     def path(self) -> float:
@@ -68,8 +71,10 @@ def seal_of(run: Results, found: Installation) -> Seal | None:
     """Return the seal in sand by Houlsby & Byrne."""
     if not found.rest:
         return None
+    rests = [h for h in map(rest_of, band_of(run).values()) if h is not None]
+    shallow = min([*rests, found.rest])
     end = min(FURTHER * found.rest, float(found.depth[-1]))
-    depth = np.union1d(np.linspace(end / ROWS, end, ROWS), found.rest)
+    depth = np.union1d(np.linspace(end / ROWS, end, ROWS), [found.rest, shallow])
     _, piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
     at_rest = depth == found.rest
     if not np.isfinite(piping[at_rest]).all():
@@ -81,41 +86,50 @@ def seal_of(run: Results, found: Installation) -> Seal | None:
     critical = gradient * float(piping[at_rest][0]) / suction
     least = sealing.least_embedment(depth, allowed, applied) if applied else nan
     parts = float(allowed[at_rest][0]) / 1e3, applied / 1e3, gradient, critical, least
-    return Seal(found.rest, *parts)
+    high = nan, nan
+    if shallow < found.rest:
+        high = shallow, float(allowed[depth == shallow][0]) / 1e3
+    return Seal(found.rest, *parts, high)
 
 
 class Grout(NamedTuple):
     """The space beneath the lid at a depth: its volume (m3), mean, least and largest
     gap, the tilt of the lid (degrees, 0 if it is not given), and the excess pressures
-    at which sand outside pipes, by its factor (nan if none does), and at which the
-    caisson is lifted."""
+    at which something gives way, each by its factor, from the least one on."""
 
     depth: float
     volume: float
     gap: float
     ends: tuple[float, float]
     tilt: float
-    piping: float
-    lifts: float
+    pressures: dict[str, float]
+
+
+LIFTED = "the caisson is lifted"
+GROUT_FACTORS = {
+    retrieval.OUTWARD: limits.PIPING,
+    retrieval.PLUG: limits.REVERSE_BEARING,
+}
 
 
 def grout_of(run: Results, found: Installation) -> Grout | None:
-    """Return the space for grout; None where the room below the lid is not known."""
+    """Return the space for grout; None where the room below the lid is not known. Its
+    pressure is limited as that of a retrieval is, and by the weight."""
     if not len(found.room):
         return None
     depth, room = float(found.depth[-1]), float(found.room[-1])
     gap = room + float(found.expected[-1] - found.heave[-1])
     area, tilt = plug_area(run.scene), given(run, TILT)
     inner = float(run.scene["diameter_m"]) - 2 * float(run.scene["wall_thickness_m"])
-    answers = suction_methods.answers_of(theory.site_of(run), np.array([depth]))
-    piping = nan
-    if answers.suctions:
-        inside = answers.suctions[suction_methods.PIPING][0]
-        outside = sealing.grout_pressure(float(inside), factor_of(run, depth))
-        piping = outside / found.factors[limits.PIPING] / 1e3
+    pressures = {LIFTED: run.weight / area}
+    for name, values in overpressures.limits_of(run, np.array([depth])).items():
+        factor = found.factors.get(GROUT_FACTORS.get(name, ""), 1.0)
+        pressures[name] = float(values[0]) / factor
+    least = {
+        k: pressures[k] / 1e3 for k in sorted(pressures, key=pressures.__getitem__)
+    }
     ends = sealing.gaps(room, inner, tilt)[0], sealing.gaps(gap, inner, tilt)[1]
-    volume, lifts = area * max(gap, 0.0), run.weight / 1e3 / area
-    return Grout(depth, volume, gap, ends, tilt, piping, lifts)
+    return Grout(depth, area * max(gap, 0.0), gap, ends, tilt, least)
 
 
 class Scour(NamedTuple):
