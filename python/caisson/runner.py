@@ -6,6 +6,7 @@ import enum
 import functools
 import hashlib
 import json
+import math
 import os
 import re
 import shlex
@@ -27,6 +28,7 @@ from caisson.disk import InputError, is_locked
 
 Entries = Mapping[str, Any]
 # what batch systems set, which may give a run several hosts
+RANKS_PER_CORE = 4  # at most
 BATCH = ("SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE")
 
 
@@ -58,12 +60,26 @@ def set_options(entries: Entries) -> list[str]:
     return options
 
 
+def refuse_ranks(ranks: int) -> None:
+    """Refuse a number of ranks on which no run can go well; a batch system, which may
+    have other machines, knows its own. Raises RunError."""
+    most: float = RANKS_PER_CORE * (os.cpu_count() or 1)
+    if set(BATCH) & set(os.environ):
+        most = math.inf
+    if ranks != int(ranks) or not 1 <= ranks <= most:
+        raise RunError(
+            f"--ranks must be a whole number from 1 to {most}, not {ranks}: this machine"
+            f" has {most // RANKS_PER_CORE} cores"
+        )
+
+
 def mpi_command(ranks: int, binding: str = "none") -> list[str]:
     """Return what stands before the program to run it on several ranks.
 
     Ranks that wait let others compute. That costs nothing that could be measured, and
     where other work takes the cores, ranks that do not are five times as slow.
     """
+    refuse_ranks(ranks)
     if ranks == 1:
         return []
     start = ["mpirun", "-np", str(ranks), "--bind-to", binding]

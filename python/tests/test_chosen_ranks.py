@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How many ranks a run takes, and how the runs of a study share the cores."""
+import argparse
 import contextlib
 import io
+import os
 import signal
 import stat
 import subprocess
@@ -15,7 +17,7 @@ from caisson import ranks
 from caisson.commands import run as launch
 from caisson.paths import ROOT
 from caisson.ranks import Size
-from caisson.runner import environment, mpi_command, size_in
+from caisson.runner import RunError, environment, mpi_command, size_in
 
 VALID = """jack.prm is valid
   grid       57 x 97 cells, axisymmetric
@@ -177,6 +179,18 @@ class Launch(unittest.TestCase):
         self.assertEqual(self.choose(VALID, "--restart")[0], 2)
         self.assertEqual(self.choose(VALID, "--validate"), (1, ""))
         self.assertEqual(self.choose("subsection Grid"), (1, ""))
+
+    def test_ranks_that_would_hang(self) -> None:
+        """Four for each core at most, by the command and the function."""
+        for n in (-1, 0, 1.5, 4 * (os.cpu_count() or 1) + 1):
+            with self.assertRaisesRegex(RunError, "whole number from 1 to"):
+                mpi_command(n)  # type: ignore[arg-type]
+        words = ["--ranks", "999", "jack.prm"]
+        options = argparse.Namespace(
+            ranks=None, band=False, error=None, arguments=words
+        )
+        with self.assertRaisesRegex(RunError, "not 999"):
+            launch.main(options)
 
     def test_ctrl_c_stops_in_order(self) -> None:
         """The first signal makes the file that stops the ranks, whose status counts;

@@ -198,6 +198,10 @@ class Differences(WithPage):
         said = self.compare(one, other)
         self.assertIn("  pump, at 4.5 m\n    40 kPa\n    50 kPa", said)
         self.assertNotIn("Pump", said)
+        leave_run(one, {**summary, "entries": {"Water/Largest suction": "15e3"}})
+        said = self.compare(one, other)
+        self.assertRegex(said, r"pump, at 3 m\n    15 kPa\n    50 kPa")
+        self.assertNotIn("none\n", said.partition("verdict, cards")[2])
         self.assertTrue((self.path / "comparison_one_other.png").is_file())
 
     def test_the_same(self) -> None:

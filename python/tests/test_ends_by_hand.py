@@ -171,6 +171,19 @@ class Ends(Scene):
             self.assertIn(f"measured nothing from {said_of}" if said_of else "", said)
             self.assertEqual("ASSUMED" in said, bool(said_of))
 
+    def test_suction_that_ends_where_it_rests(self) -> None:
+        """The page has the penetration by weight and the limits that end suction; the
+        depth is not rounded above that of the rest."""
+        run = self.scene(CLAY, weight=2.44e6)
+        run.summary["entries"]["Water/Largest suction"] = "1"
+        rest = self.rest_of(run)
+        self.assertEqual(outcome.depth_of(run), rest)
+        text = self.text(run)
+        self.assertIn(f"Self-weight penetration {rest:.2f} m", text)
+        self.assertRegex(text, rf"limit of the suction \(kPa\) .*feasible: {rest:.2f}")
+        self.assertNotIn("more than", text)
+        self.assertNotIn("Water to vent", text)
+
     def test_flow_that_is_not_steady(self) -> None:
         """v D / c_v at 1 m/h, with c_v = k 1.35 E / 9810 N/m3, is above 1."""
         for k, is_steady in ((1e-5, True), (1e-7, False)):
@@ -184,10 +197,13 @@ class Ends(Scene):
             words = low_and_high.unsteady_in_words(run)
             found = outcome.whole_way(run)
             assert found is not None
-            end = np.interp(0, found.force - 2e3 - AREA * found.allowable, found.depth)
+            plain = np.maximum(found.force - 2e3, 0) / AREA
             self.assertEqual(bool(words), not is_steady)
             if words:
-                self.assertIn(f"without it, suction ends at {end - 0.05:.1f}", words)
+                np.testing.assert_allclose(found.required, plain, atol=1e-9)
+                self.assertIn("what it takes from the forces is not counted", words)
+            else:
+                self.assertLess(found.required[-1], 0.9 * plain[-1])
             run = self.scene(CLAY, {**layer, "top_depth_m": 3.0})
             run.summary["entries"]["Water/Level"] = "seepage"
             self.assertEqual(run_review.review_of(run), ())

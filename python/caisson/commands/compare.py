@@ -18,7 +18,7 @@ from caisson.plot import comparison
 from caisson.report import scene, trace, verdict
 from caisson.report.low_and_high import cards_of, sentence_of
 from caisson.results import Results
-from caisson.verdict import outcome
+from caisson.verdict import installation, outcome
 from caisson.verdict.installation import Rate
 
 add_arguments = comparison.add_arguments
@@ -26,19 +26,25 @@ NONE = "none"  # of what one of them does not have
 Words = dict[str, str]  # by the name of an entry or a card
 
 
-def page_of(run: Results) -> Words:
+def part_of(run: Results) -> installation.Installation | None:
+    """Return the installation of a run down to where suction ends."""
+    if (found := outcome.whole_way(run)) is None:
+        return None
+    return outcome.feasible_part(run, found, outcome.depth_of(run))
+
+
+def page_of(run: Results, common: float) -> Words:
     """Return what the page of a run says first: its verdict, its cards, and the limits
-    of the suction where they end."""
+    of the suction at a depth (m) that other runs have, too."""
     said = {"verdict": f"{verdict.verdict_of(run).text} {sentence_of(run)}".strip()}
-    if (found := outcome.whole_way(run)) is not None:
-        part = outcome.feasible_part(run, found, outcome.depth_of(run))
+    if (part := part_of(run)) is not None:
         for name, *words in cards_of(run, verdict.cards_of(run, part, Rate())):
             said[name] = ", ".join(filter(None, words))
-        place = run.shown.place(float(part.depth[-1])) if len(part.depth) else ""
-        for name, values in part.limits.items():
+        here = installation.installation_of(run, Rate(), np.array([common])) or part
+        for name, values in here.limits.items():
             if np.isfinite(values[-1]):
                 most = run.shown.words(float(values[-1]), "kPa", ".3g")
-                said[f"{part.named(name)}, at {place}"] = most
+                said[f"{here.named(name)}, at {run.shown.place(common)}"] = most
     return {name: text for name, text in said.items() if text}
 
 
@@ -59,7 +65,10 @@ def differences(runs: list[Results]) -> Iterator[str]:
         yield "of each pair, the upper is {}, the lower {}".format(*names)
         scenes = (scene.with_units(run, trace.entries_of(run)) for run in runs)
         yield from changes("scene", *scenes)
-        yield from changes("verdict, cards and limits", *map(page_of, runs))
+        parts = [part for part in map(part_of, runs) if part and len(part.depth)]
+        common = min((float(part.depth[-1]) for part in parts), default=0.0)
+        pages = (page_of(run, common) for run in runs)
+        yield from changes("verdict, cards and limits", *pages)
 
 
 def main(options: argparse.Namespace) -> int:

@@ -34,6 +34,7 @@ from caisson.runner import (
     environment,
     mpi_command,
     read_parameters,
+    refuse_ranks,
     refuse_missing,
     size_in,
 )
@@ -96,11 +97,14 @@ def places_of(
     return directory, directory / name if name else None
 
 
-def choose_ranks(arguments: list[str]) -> int:
-    """Return the number of ranks that pays for a run, and say why. It is one where
-    there will be no run: the program itself says what is wrong with the input."""
+def choose_ranks(arguments: list[str], given: int | None = None) -> int:
+    """Return the number of ranks that is given, or that which pays for a run, and say
+    why. It is one where there will be no run: the program itself says what is wrong
+    with the input."""
     if "--validate" in arguments:
         return 1
+    if given:
+        return given
     try:
         points = size_in(query([*arguments, "--validate"])).points
     except RunError:
@@ -284,8 +288,8 @@ def main(options: argparse.Namespace) -> int:
     """Run the program, then draw what it wrote; return its status."""
     refuse_missing(PROGRAM)
     take_own(options)
-    if options.ranks is not None and options.ranks < 1:
-        raise RunError("--ranks must be 1 or more")
+    if options.ranks is not None:
+        refuse_ranks(options.ranks)
     if not options.arguments:
         scenes = SCENES if INSTALLED else f"{short(SCENES)}/"
         raise RunError(f"give a parameter file; the scenes are in {scenes}")
@@ -318,7 +322,7 @@ def main(options: argparse.Namespace) -> int:
     if has_phases:
         chain = run_several.Chain(arguments, entries, options.ranks, error_bar)
         return chain.main(try_to_draw, reporting)
-    n_ranks = options.ranks or choose_ranks(arguments)
+    n_ranks = choose_ranks(arguments, options.ranks)
     begin = time.time()
     command = [*mpi_command(n_ranks), str(PROGRAM), *arguments]
     with reporting(directory):

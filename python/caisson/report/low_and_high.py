@@ -2,20 +2,17 @@
 """What low and high resistance of the soil change on the page of the best estimate: the
 verdict, the penetration by weight, and the required suction at the quarters; and how
 far the result may be wrong in all."""
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from caisson.band import BEST, HIGH, LOW, band_of, left_out
 from caisson.curves import EDGE
-from caisson.design.suction_installation import suction_without_flow
 from caisson.evaluation import DEPTH, SUCTION
 from caisson.table import text_of
 from caisson.verdict import installation, outcome
 from caisson.verdict.by_hand import ByHand
-from caisson.verdict.installation import NOTHING, Installation, Rate, plug_area
-from caisson.verdict.limits import rounded_down
+from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.run_review import unsteady_flow
 from caisson.report.verdict import REST, say, verdict_of
 from caisson.report.verdict import cards_of as own_cards_of
@@ -60,18 +57,11 @@ def by_hand_in_words(run: Results) -> str:
 
 
 def unsteady_in_words(run: Results) -> str:
-    """Return that flow is not steady, and by hand where suction ends without what it
-    takes from the forces; nothing where flow is steady."""
+    """Return that flow is not steady; nothing where it is."""
     found = outcome.whole_way(run)
     if not (unsteady := unsteady_flow(run)) or not found or not found.has_suction:
         return ""
-    end = None
-    if run.by_hand:
-        loads = found.force, run.weight / 1e3, plug_area(run.scene)
-        required = suction_without_flow(*loads)
-        least = outcome.reached(replace(found, required=required), found.allowable)
-        end = rounded_down(least[0]) if least else None
-    return say("not_steady", run.shown, *unsteady, end, bool(run.by_hand))
+    return say("not_steady", *unsteady, bool(run.by_hand))
 
 
 def sentence_of(run: Results) -> str:

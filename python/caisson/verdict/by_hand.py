@@ -14,6 +14,7 @@ takes from tip Q and inner friction F_i what Senders & Randolph say, else nothin
 
     s = (R - W) / (A + (Q + F_i) / s_cr),  R = Q + F_i + F_o,  or  s = (R - W) / A.
 
+Where flow is not steady (run_review.unsteady_flow) it takes nothing from the forces.
 High resistance takes no less than the high case of Houlsby & Byrne by their own flow:
 where no suction below piping suffices for them, it ends there.
 
@@ -39,7 +40,7 @@ from caisson.evaluation import UNDER_WEIGHT, heave_of_ledges
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import query, set_options
 from caisson.units import WATER
-from caisson.verdict import suction_methods, theory
+from caisson.verdict import run_review, suction_methods, theory
 
 COLUMNS = dict(
     zip(("tip_force_N", "inner_friction_N", "outer_friction_N"), theory.PARTS)
@@ -207,8 +208,10 @@ class ByHand(Results):
         """Return the required suction [n] (Pa), below 0 where the weight suffices."""
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
         critical, piping = suction_methods.flow_above_clay(self.site, depth)
+        if is_unsteady := run_review.unsteady_flow(self) is not None:
+            critical = np.full(len(depth), np.inf)
         found = suction_of(forces, self.weight, area, critical)
-        if self.estimate != HIGH or self.byrne is None:
+        if is_unsteady or self.estimate != HIGH or self.byrne is None:
             return found
         case = self.byrne, suction_methods.HIGH, self.weight
         for i in np.flatnonzero(depth <= self.sand_end):

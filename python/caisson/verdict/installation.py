@@ -27,6 +27,7 @@ from caisson.shown import USUAL, Units
 HOUR = 3600.0
 PIECES = 100  # of a way, between which a peak of the suction is looked for
 JUST_BELOW = 1e-3  # of the way: there the tip stands on the next layer
+STIFFENERS = "Ring stiffener spacing"
 LITTLE = 0.1  # of the largest suction
 PEAK = 1.02  # times the largest value of the rows, that a peak exceeds
 HELD = 0.7  # m, below the error bar, over which its last width still stands
@@ -285,6 +286,10 @@ def add_suction(found: Installation, run: Results, numbers: Table, rate: Rate) -
     found.absent = limits.absent_of(run, found.limits)
     if run.assumes("Water depth"):
         found.assumes[limits.BOILING] = ", of a water depth that is ASSUMED"
+    if limits.number_of(run, STIFFENERS):
+        found.assumes[
+            limits.SHELL
+        ] = ", whose stiffeners no soil bears on here (Rigid body/Rings has such)"
     found.soft_below = suction_methods.soft_below(theory.site_of(run), at)
     found.rest = rest_of(run)
     if scene.get("diameter_m"):
@@ -378,7 +383,7 @@ def quarters_of(
     """Return the table of required suction and all limits at quarters of the planned
     penetration (m), and at the depth that a run has reached before it; end: where
     suction ends (m), None where it does not."""
-    if not found.has_suction or not planned:
+    if not (found.has_suction or end is not None) or not planned:
         return {}
     shown, reached = found.shown, float(found.depth[-1])
     quarters = wanted = planned * np.array([0.25, 0.5, 0.75, 1.0])

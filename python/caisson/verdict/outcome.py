@@ -15,7 +15,7 @@ import numpy as np
 from caisson import curves, evaluation
 from caisson.evaluation import DEPTH, GRADIENT, ROOM, SUCTION, TOTAL, Way, is_pull
 from caisson.results import Results, ResultsError
-from caisson.verdict import installation, limits
+from caisson.verdict import installation, limits, suction_methods, theory
 from caisson.verdict.installation import NOTHING, Installation, Rate
 from caisson.verdict.limits import BOILING, COMPUTED, PIPING
 
@@ -68,7 +68,9 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
             found, end = finer, sharper
     name = found.governing(end[1])
     words = found.named(name).replace(name, REASONS.get(name, name))
-    depth = max(limits.rounded_down(end[0]), float(found.depth[0]))
+    # it rests without suction, unless wall or lid hold it up above
+    at_rest = 0.0 if found.held_up[end[1]] else found.rest or 0.0
+    depth = max(limits.rounded_down(end[0]), float(found.depth[0]), at_rest)
     return depth, words + found.remark(name, end[1])
 
 
@@ -136,7 +138,8 @@ def feasible(run: Results, way: Way) -> Way:
 
 def margins_of(run: Results, way: Way) -> dict[str, Any]:
     """Return the least margins to piping, boiling and the largest suction of the pump,
-    as shares of 1, and the least room below the lid (m)."""
+    as shares of 1, and the least room below the lid (m). Piping is that by the computed
+    exit gradient or by Houlsby & Byrne, whichever leaves less."""
     required = np.maximum(way.columns[SUCTION], 0)
 
     def margin(ratio: np.ndarray) -> dict[str, float]:
@@ -144,8 +147,12 @@ def margins_of(run: Results, way: Way) -> dict[str, Any]:
         return {"least": 1 - most, DEPTH: depth}
 
     found: dict[str, Any] = {}
-    if GRADIENT in way.columns:
-        found["piping"] = margin(way.columns[GRADIENT])
+    _, critical = suction_methods.flow_above_clay(theory.site_of(run), way.depth)
+    shares = [required / np.where(critical > 0, critical, np.nan)]
+    shares += [way.columns[GRADIENT]] if GRADIENT in way.columns else []
+    piping = np.fmax.reduce(shares)
+    if np.isfinite(piping).any():
+        found["piping"] = margin(np.nan_to_num(piping))
     if (boils := way.columns.get(evaluation.BOILING)) is not None:
         share = np.divide(required, boils, out=np.ones(len(boils)), where=boils > 0)
         found["boiling"] = margin(share)

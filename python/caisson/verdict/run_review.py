@@ -294,7 +294,8 @@ def review_of(run: Results) -> tuple[str, ...]:
     flow is steady, its lid in the water, its cone test without gaps, and its error bar
     that of another scene."""
     other_bar = say("other_bar") if run_error_bar.is_of_another(run) else ""
-    unsteady = say("unsteady", *found) if (found := unsteady_flow(run)) else ""
+    found, is_by_hand = unsteady_flow(run), bool(run.by_hand)
+    unsteady = say("unsteady", *found, is_by_hand) if found else ""
     texts = [unsteady, lid_above_sea(run), gaps_in_test(run), other_bar]
     of_all = tuple(filter(None, texts))
     if (
