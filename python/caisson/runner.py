@@ -68,8 +68,8 @@ def refuse_ranks(ranks: int) -> None:
         most = math.inf
     if ranks != int(ranks) or not 1 <= ranks <= most:
         raise RunError(
-            f"--ranks must be a whole number from 1 to {most}, not {ranks}: this machine"
-            f" has {most // RANKS_PER_CORE} cores"
+            f"--ranks must be a whole number from 1 to {most}, not {ranks}: this"
+            f" machine has {most // RANKS_PER_CORE} cores"
         )
 
 
