@@ -283,6 +283,9 @@ class Layers(unittest.TestCase):
             found = walls.with_walls(layers, None, layers)
             self.assertEqual([x.value(walls.FRICTION) for x in found], angles)
             self.assertEqual(walls.wall_friction_of(None, layers).value, angle)
+        # clay below the planned depth adheres, too
+        found = walls.with_walls([sand, clay], None, [sand])
+        self.assertEqual([x.value(walls.FRICTION) for x in found], ["", "0"])
         with self.assertRaisesRegex(SuggestError, "clay, which adheres: give alpha"):
             walls.wall_friction_of(25, [clay])
 

@@ -102,10 +102,11 @@ def with_walls(
     if given == 0:
         return list(layers)
     own = have_own(reached) if given is None else False
+    has_friction = bool(given) or not all(map(is_clay, reached))
     found = []
     for layer in layers:
         added, has_wall = list[Entry](), layer.value(FRICTION) or layer.value(ADHESION)
-        adheres = is_clay(layer) and bool(given)
+        adheres = is_clay(layer) and has_friction
         if (own or adheres) and not layer.value(FRICTION):
             added.append(friction_of(layer))
         if is_clay(layer) and not has_wall:
