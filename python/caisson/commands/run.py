@@ -174,9 +174,10 @@ def try_to_draw(directory: Path, error_bar: Path | None) -> None:
         text = f"run: the results are whole; `caisson report {short(directory)}`"
         print(f"\n{text} makes the page", file=sys.stderr)
         raise
-    except Exception as error:  # whatever it is, the run was good
+    except Exception as error:  # whatever it is, it says nothing of the run
         print(
-            f"run: no pictures of {directory}: {error}; the results are not affected",
+            f"run: no pictures of {directory}: {error}; `caisson report"
+            f" {short(directory)}` makes them when that is mended",
             file=sys.stderr,
         )
 

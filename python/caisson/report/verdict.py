@@ -185,6 +185,8 @@ def keep(run: Results) -> str:
     ends and the limits over depth; return the verdict."""
     found = verdict_of(run)
     if run.is_running or not found.text:
+        if not run.is_running:  # what an earlier history had is no answer
+            (run.directory / NAME).unlink(missing_ok=True)
         return found.text
     known: dict[str, Any] = {"verdict": found.text}
     if found.end is not None:
