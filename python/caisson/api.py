@@ -168,9 +168,11 @@ def compare_log(directory: str | Path, measured: str | Path) -> list[str]:
         for sentence in caisson.compare_log("results/own", "measured.csv"):
             print(sentence)
     """
-    from caisson.vessel_log import write
+    from caisson.vessel_log import answer_of, write
 
-    return write(Path(directory), Path(measured))[1]
+    found = answer_of(Path(directory), Path(measured))
+    write(Path(directory), found)
+    return found.said
 
 
 def run(

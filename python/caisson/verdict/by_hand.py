@@ -119,6 +119,7 @@ class ByHand(Results):
         super().__init__(directory)
         self.estimate, self.facts = estimate, facts
         self.by_hand = self.columns_at
+        self.known_columns: dict[bytes, Table] = {}
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
@@ -265,7 +266,15 @@ class ByHand(Results):
         return {BOILING: np.maximum(found, 0.0)}
 
     def columns_at(self, depth: np.ndarray) -> Table:
-        """Return the columns of a history at embedments [n] (m)."""
+        """Return the columns of a history at embedments [n] (m), to be read only: many
+        ask for the same ones."""
+        key = depth.tobytes()
+        if key not in self.known_columns:
+            self.known_columns[key] = self.new_columns_at(depth)
+        return dict(self.known_columns[key])
+
+    def new_columns_at(self, depth: np.ndarray) -> Table:
+        """Return what columns_at() has not answered yet."""
         forces = self.forces_at(depth)
         found = {DEPTH: depth, TOTAL: forces["total"]}
         found |= {column: forces[part] for column, part in COLUMNS.items()}

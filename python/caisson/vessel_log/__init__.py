@@ -15,7 +15,7 @@ run. With --blank a log sheet to print goes there: log_sheet.pdf and log_sheet.c
 """
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -26,9 +26,11 @@ from caisson.results import Results, ResultsError
 if TYPE_CHECKING:
     from caisson.vessel_log.expected import Expected
     from caisson.vessel_log.forecast import Bins, Forecast
+    from caisson.vessel_log.measured import Log
 
 HERE = Path(__file__).parent
 PAGE, PICTURE, TABLE = "vessel.html", "vessel.png", "vessel.csv"
+FORECASTS = "forecast_low_kPa", "forecast_kPa", "forecast_high_kPa"
 EXTRAPOLATED = "extrapolated"  # the column that names the lines that are
 
 
@@ -41,17 +43,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def columns_of(
-    expected: "Expected", bins: "Bins", forecast: "Forecast"
+    expected: "Expected", bins: "Bins", forecast: "Forecast | None"
 ) -> dict[str, np.ndarray]:
     """Return the columns [n] of the table at each half meter and at the end: suctions
     in kPa, nan where there is none."""
+    from caisson.vessel_log.steps import suction_in
+
     depth = expected.depth
     at = np.unique([*evaluation.depths_of(depth), bins.depth[-1]])
 
     def within(x: np.ndarray, y: np.ndarray) -> np.ndarray:
         return np.asarray(np.interp(at, x, y, left=np.nan, right=np.nan))
 
-    measured = expected.suction(bins.resistance, forecast.weight)
+    measured, ahead = suction_in(bins, expected), [at * np.nan] * 3
+    if forecast:
+        lines = forecast.low, forecast.best, forecast.high
+        ahead = [within(forecast.depth, line) for line in lines]
     return {
         "depth_m": at,
         **{
@@ -59,9 +66,7 @@ def columns_of(
             for name, suction in expected.suctions.items()
         },
         "measured_kPa": within(bins.depth, measured),
-        "forecast_low_kPa": within(forecast.depth, forecast.low),
-        "forecast_kPa": within(forecast.depth, forecast.best),
-        "forecast_high_kPa": within(forecast.depth, forecast.high),
+        **dict(zip(FORECASTS, ahead)),
         "allowable_kPa": within(depth, expected.allowable),
     }
 
@@ -97,30 +102,48 @@ def write_page(
     return disk.write(path, text)
 
 
-def write(directory: Path, measured: Path) -> tuple[list[Path], list[str]]:
-    """Write page, picture and table of a log into the directory of a run; return the
-    files, and what the log says. Raises InputError."""
-    from caisson.vessel_log import forecast, picture, words
+class Answer(NamedTuple):
+    """What a log is compared with, and what it says."""
+
+    expected: "Expected"
+    log: "Log"
+    bins: "Bins"
+    forecast: "Forecast | None"
+    said: list[str]
+
+
+def answer_of(directory: Path, measured: Path) -> Answer:
+    """Return what a log says beside the run of a directory. Raises InputError."""
+    from caisson.vessel_log import forecast, words
     from caisson.vessel_log.expected import expected_of
     from caisson.vessel_log.measured import read
     from caisson.vessel_log.steps import bins_of, weight_of
-    from caisson.table import digits, write_csv
 
     log, expected = read(measured), expected_of(Results(directory))
-    bins = bins_of(measured, log, expected)
-    found = forecast.forecast_of(expected, bins, weight_of(log, expected))
+    bins, found = bins_of(measured, log, expected), None
+    if not words.no_forecast(expected, log):
+        found = forecast.forecast_of(expected, bins, weight_of(log, expected))
     fit = forecast.fit_of(expected, bins)
     said = words.said(expected, log, bins, fit, found)
-    columns = columns_of(expected, bins, found)
+    return Answer(expected, log, bins, found, said)
+
+
+def write(directory: Path, found: Answer) -> list[Path]:
+    """Write page, picture and table of a log into the directory of a run; return the
+    files. Raises InputError."""
+    from caisson.vessel_log import picture
+    from caisson.table import digits, write_csv
+
+    expected, log, bins, forecast, said = found
+    columns = columns_of(expected, bins, forecast)
     beyond = [expected.extrapolated_at(depth) for depth in columns["depth_m"]]
     numbers = [[digits(x, 4) for x in column] for column in columns.values()]
     rows = list(zip(*numbers, beyond))
-    files = [  # the table first, whose name the log may have
+    return [  # the table first, whose name the log may have
         write_csv(directory / TABLE, [*columns, EXTRAPOLATED], rows),
-        picture.draw(directory / PICTURE, expected, log, bins, found),
+        picture.draw(directory / PICTURE, expected, log, bins, forecast),
         write_page(directory / PAGE, expected, said, columns, beyond),
     ]
-    return files, said
 
 
 def main(options: argparse.Namespace) -> int:
@@ -137,11 +160,12 @@ def main(options: argparse.Namespace) -> int:
     if options.blank:
         from caisson.vessel_log import sheet
 
-        files, said = sheet.write(options.directory), list[str]()
+        files = sheet.write(options.directory)
     else:
-        files, said = write(options.directory, options.measured)
-    for line in said:
-        print(line)
+        found = answer_of(options.directory, options.measured)
+        for line in found.said:  # first, as the disk may be full
+            print(line, flush=True)
+        files = write(options.directory, found)
     for file in files:
         print(f"log: {short(file)}")
     return 0

@@ -35,14 +35,14 @@ LEAST_NOISE = 0.02  # of the resistance of a step: gauges are not better
 
 class Bins(NamedTuple):
     """A log in steps of depth, [n] each: depth (m), resistance (kN) and its error as a
-    share of it; and the depths (m) of the steps that are left out, as the pump rested,
-    and of those where the caisson rested under more than the ground held around."""
+    share of it; the weight on the soil (kN); and how many steps are left out, as the
+    pump rested."""
 
     depth: np.ndarray
     resistance: np.ndarray
     error: np.ndarray
-    stops: tuple[float, ...] = ()
-    held: tuple[float, ...] = ()
+    weight: np.ndarray
+    rests: int = 0
 
 
 class Fit(NamedTuple):

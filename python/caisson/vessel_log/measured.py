@@ -161,7 +161,7 @@ def read(path: Path) -> Log:
     rows, head = rows_of(path)
     columns, unread = columns_of(path, *rows[head])
     needed = "suction" if "suction" in columns else "resistance"
-    found, left_out = list[list[float]](), list[int]()
+    found, left_out, lost = list[list[float]](), list[int](), 0
     for row, cells in rows[head + 1 :]:
         values = dict.fromkeys(QUANTITIES, np.nan)
         for name, (places, factor) in columns.items():
@@ -171,8 +171,10 @@ def read(path: Path) -> Log:
                 values[name] = read_one(text, factor)
         if np.isfinite(values["depth"]) and np.isfinite(values[needed]):
             found.append(list(values.values()))
+            lost = 0
         else:
             left_out.append(row)
+            lost += int(np.isfinite(values["depth"]))
     if len(found) <= len(left_out):
         first = f"; the first is row {left_out[0]}" if left_out else ""
         raise InputError(
@@ -184,6 +186,11 @@ def read(path: Path) -> Log:
         remarks.append(
             f"{len(left_out)} rows without depth and {needed} are left out; the first"
             f" is row {left_out[0]}"
+        )
+    if lost:
+        remarks.append(
+            f"the last {lost} rows have a depth, and no {needed} that is a number: is"
+            " it out of the range of the gauge?"
         )
     return ordered(path, np.array(found), remarks)
 
@@ -208,12 +215,8 @@ def started_anew(time: np.ndarray, depth: np.ndarray, remarks: list[str]) -> np.
     """Return times [n] (s), which go on where a clock has started anew: where the tip
     goes down in the order of the rows, and not in that of their times."""
     back = np.diff(time, prepend=time[0]) < 0
-
-    def way_up(order: np.ndarray) -> float:
-        return float(-np.diff(depth[order]).clip(max=0).sum())
-
-    in_time = way_up(np.argsort(time, kind="stable"))
-    if not back.any() or in_time <= UPWARD * way_up(np.arange(len(time))):
+    in_time = way_up(depth[np.argsort(time, kind="stable")])
+    if not back.any() or in_time <= UPWARD * way_up(depth):
         return time
     remarks.append(
         f"the clock starts anew at {back.sum()} of the rows, which stay in the order of"
@@ -222,25 +225,46 @@ def started_anew(time: np.ndarray, depth: np.ndarray, remarks: list[str]) -> np.
     return time + np.cumsum(np.where(back, -np.diff(time, prepend=time[0]), 0.0))
 
 
+def way_up(depth: np.ndarray) -> float:
+    """Return how far depths [n] (m) go up from row to row in all."""
+    return float(-np.diff(depth).clip(max=0).sum())
+
+
+def times_of(table: np.ndarray, remarks: list[str]) -> np.ndarray:
+    """Return the times [n] (s) of rows, with those between for cells that are empty or
+    not understood; nan of all where few are understood."""
+    time = table[:, 0]
+    known = np.flatnonzero(np.isfinite(time))
+    if len(known) == len(time):
+        return time
+    if 2 * len(known) <= len(time):
+        if len(known):
+            remarks.append("times are not understood: rows count as the time")
+        return np.full(len(time), np.nan)
+    remarks.append(f"{len(time) - len(known)} times are between those of other rows")
+    return np.interp(np.arange(len(time)), known, time[known])
+
+
 def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     """Return the rows [n, quantities] in the order of time, without those that are
-    repeated and without spikes. Raises InputError where suction or depth is negative.
-    """
-    filled = np.nan_to_num(table, nan=-np.inf)  # an empty cell is like another
-    once = table[np.sort(np.unique(filled, axis=0, return_index=True)[1])]
-    if len(once) < len(table):
-        remarks.append(f"{len(table) - len(once)} repeated rows are left out")
-    has_time = bool(np.isfinite(once[:, 0]).all())
-    if has_time:
+    repeated and without spikes; without times in their own order. Where the tip goes up
+    along the rows, the last one is first. Raises InputError where suction or depth is
+    negative."""
+    if way_up(table[::-1, 1]) < way_up(table[:, 1]) / UPWARD:  # the last row first
+        table = table[::-1]
+    once = table.copy()
+    once[:, 0] = times_of(table, remarks)
+    if np.isfinite(once[:, 0]).all():
+        filled = np.nan_to_num(once, nan=-np.inf)  # an empty cell is like another
+        once = once[np.sort(np.unique(filled, axis=0, return_index=True)[1])]
+        if len(once) < len(table):
+            remarks.append(f"{len(table) - len(once)} repeated rows are left out")
         once[:, 0] = started_anew(past_midnight(once[:, 0]), once[:, 1], remarks)
-    if has_time and (np.diff(once[:, 0]) < 0).any():
-        remarks.append("rows were not in the order of time, and were sorted")
-    if has_time:
+        if (np.diff(once[:, 0]) < 0).any():
+            remarks.append("rows were not in the order of time, and were sorted")
         once = once[np.argsort(once[:, 0], kind="stable")]
     columns = without_spikes(dict(zip(QUANTITIES, once.T)), remarks)
-    if not has_time:
-        order = np.argsort(columns["depth"], kind="stable")
-        columns = {name: values[order] for name, values in columns.items()}
+    columns["flow"] = np.abs(columns["flow"])
     suction = columns["suction"][np.isfinite(columns["suction"])]
     if len(suction) and np.median(suction) < 0:
         raise InputError(
@@ -314,7 +338,10 @@ def without_spikes(
         known = np.flatnonzero(np.isfinite(values))
         if name == "time" or not len(known):
             continue
-        spikes = known[spikes_in(values[known])]
+        is_spike = spikes_in(values[known])
+        if name == "suction":  # what rises at the end of a log may be a refusal
+            is_spike[np.flatnonzero(~is_spike)[-1] + 1 :] = False
+        spikes = known[is_spike]
         if not len(spikes):
             continue
         unit = QUANTITIES[name].unit

@@ -15,7 +15,7 @@ from caisson.vessel_log import words
 from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import Bins, Forecast
 from caisson.vessel_log.measured import Log
-from caisson.vessel_log.steps import suction_of
+from caisson.vessel_log.steps import suction_in, suction_of
 from caisson.plot.suction import WHITE
 from caisson.plot.small import in_units, legend_below, over_depth, with_note
 from caisson.template import ends
@@ -72,21 +72,22 @@ def governing_of(expected: Expected) -> str:
 
 
 def draw(
-    path: Path, expected: Expected, log: Log, bins: Bins, forecast: Forecast
+    path: Path, expected: Expected, log: Log, bins: Bins, forecast: Forecast | None
 ) -> Path:
     """Write the chart, with the readings and the steps that the fit takes; return its
     path."""
     figure = Figure(figsize=(7.5, 7.5))
     axes = figure.subplots()
     figure.suptitle(textwrap.fill(expected.title, 90), fontsize=9)
-    measured = expected.suction(bins.resistance, forecast.weight)
+    measured = suction_in(bins, expected)
     readings = suction_of(log, expected)
-    lines = (measured, readings, forecast.high)
+    lines = [measured, readings, *([forecast.high] if forecast else [])]
     draw_expected(axes, expected, max(float(np.nanmax(line)) for line in lines))
-    depth, sides = forecast.depth, (forecast.low, forecast.high)
-    style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
-    axes.fill_betweenx(depth, *sides, label="forecast, nine in ten", **style)
-    axes.plot(forecast.best, depth, "--", color=ORANGE, lw=1.5, label="forecast")
+    if forecast:
+        depth, sides = forecast.depth, (forecast.low, forecast.high)
+        style = {"facecolor": ORANGE, "alpha": 0.25, "linewidth": 0}
+        axes.fill_betweenx(depth, *sides, label="forecast, nine in ten", **style)
+        axes.plot(forecast.best, depth, "--", color=ORANGE, lw=1.5, label="forecast")
     axes.plot(readings, log.depth, ".", color=BLUE, ms=2, alpha=0.35)
     axes.plot(measured, bins.depth, color=BLUE, lw=2, label="measured")
     legend_below(axes, 2)

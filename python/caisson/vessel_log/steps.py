@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The readings of a log in steps of depth, what becomes of each of them, and logs that
-cannot be of the caisson of a run.
+"""The readings of a log in steps of depth, whether the caisson rests under growing
+suction where it ends, and logs that cannot be of the caisson of a run.
 
-The resistance of a step is the median of its readings. A step that takes much longer
-than those around has a stop. It is left out where the pump rested, and kept where the
-caisson rested under more than the ground has held around: then its resistance is the
-largest that the ground has held.
+The resistance of a step is the median of its readings or, where this is clearly more,
+the largest that readings in a row have had: so much the ground has held while the tip
+was in the step, whatever came before or after, as where the pump rested, or where the
+caisson rested under growing suction.
 """
 from pathlib import Path
 
@@ -15,13 +15,15 @@ from scipy.ndimage import median_filter
 from caisson.disk import InputError
 from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import LEAST_NOISE, Bins
-from caisson.vessel_log.measured import Log, level_of
+from caisson.table import NOTHING
+from caisson.vessel_log.measured import AROUND, Log, level_of
 
 SHARE = 0.01  # of the way: the length of a step
-LONG = 3.0  # times as slow as its neighbors is a step with a stop
-AROUND = 2  # steps to either side that a step is compared with
-HELD = 1.1  # times the resistance around, which the ground has held in a stop
-HELD_SHARE = 0.95  # quantile of the resistances of a stop
+LONG = 3.0  # times as long as usual the tip is in a step, where the caisson rests
+BEFORE = 3  # steps above it, whose suction is that before
+RISE = 1.15  # times the suction before, as it grows with depth: growing suction
+IN_A_ROW = 3  # readings at least, whose median counts
+HELD = 1.1  # times the median of a step: clearly more
 LEAST_SUCTION = 0.03  # of the largest one, below which the weight may hang on a crane
 FEWEST = 3  # steps of a fit
 FAR = 10.0  # times the best resistance: no ground is so far from that of the runs
@@ -42,9 +44,16 @@ def progress_of(log: Log) -> np.ndarray:
 
 def weight_of(log: Log, expected: Expected) -> float:
     """Return the weight in water (kN) at the end of a log, that of the scene where none
-    is measured."""
+    is measured, or where less is as a crane still holds it: before any suction."""
     known = log.weight[np.isfinite(log.weight)]
-    return float(known[-1]) if len(known) else expected.weight
+    if not len(known):
+        return expected.weight
+    return float(known[-1] if is_pumped(log) else max(known[-1], expected.weight))
+
+
+def is_pumped(log: Log) -> bool:
+    """Return whether a log has any suction."""
+    return bool(np.nanmax(log.suction, initial=0.0) > NOTHING)
 
 
 def least_suction(log: Log, expected: Expected) -> float:
@@ -93,73 +102,99 @@ def below_runs(log: Log, expected: Expected) -> np.ndarray:
     return progress_of(log) > expected.depth[-1] + width_of(expected)
 
 
+def largest_in_a_row(values: np.ndarray) -> float:
+    """Return the largest median of values [n] that follow each other: of IN_A_ROW and,
+    where they are many, of up to AROUND; values that are nan are none."""
+    known = values[np.isfinite(values)]
+    width = int(np.clip(len(known) // 4, min(IN_A_ROW, len(known)), AROUND))
+    windows = np.lib.stride_tricks.sliding_window_view(known, width)
+    return float(np.median(windows, axis=1).max())
+
+
 def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
     """Return the log in steps of depth. Raises InputError where too little is left, or
     where the log cannot be of the caisson of the run."""
-    depth, force, width = (
-        progress_of(log),
-        resistance_of(log, expected),
-        width_of(expected),
-    )
+    depth, force = progress_of(log), resistance_of(log, expected)
     refuse_depth(path, depth, expected)
+    width = width_of(expected)
     number = np.floor(depth / width)
     inside = np.isfinite(force) & (depth >= expected.depth[0])
     inside &= ~below_runs(log, expected)
-    depth = depth.clip(max=expected.depth[-1])
-    places = np.unique(number[inside])
-    slow = {
-        k
-        for k, is_slow in zip(np.unique(number), has_stop(log, number, width))
-        if is_slow
-    }
-    found, held, stops = list[tuple[float, float, float]](), list[int](), list[int]()
-    for i, k in enumerate(places):
+    clock, usual = clock_of(log, width)
+    found, rests = list[tuple[float, float, float, float]](), 0
+    weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
+    for k in np.unique(number[inside]):
         rows = inside & (number == k)
         logs = np.log(force[rows])
-        middle = float(np.median(logs))
-        if k in slow:
-            near = [x for x in places[max(i - AROUND, 0) : i + AROUND + 1] if x != k]
-            around = force[inside & np.isin(number, [x for x in near if x not in slow])]
-            most = float(np.quantile(force[rows], HELD_SHARE))
-            is_held = len(around) > 0 and most > HELD * float(np.median(around))
-            (held if is_held else stops).append(i)
-            middle = np.log(most) if is_held else middle
-        scatter = 1.86 * float(np.median(np.abs(logs - np.median(logs))))
-        error = max(LEAST_NOISE, scatter / np.sqrt(len(logs)))
+        middle, most = float(np.median(logs)), largest_in_a_row(logs)
+        is_clear = most > middle + np.log(HELD)
+        force_of_step = float(np.exp(most if is_clear else middle))
+        above = [row[1] for row in found[-BEFORE:]]
+        is_long = np.ptp(clock[number == k]) > LONG * usual
+        if above and is_long and HELD * force_of_step < np.median(above):
+            rests += 1  # the pump rested, and the ground bears more
+            continue
+        scatter = 1.86 * float(np.median(np.abs(logs - middle))) / np.sqrt(len(logs))
+        error = max(LEAST_NOISE, 0.0 if is_clear else scatter)
         error = error if len(logs) > 2 else 2 * LEAST_NOISE
-        found.append((float(np.mean(depth[rows])), float(np.exp(middle)), error))
-    some = np.array(found).reshape(-1, 3)
-    keep = ~np.isin(np.arange(len(some)), stops)
-    if keep.sum() < FEWEST:
+        place = min(float(np.mean(depth[rows])), float(expected.depth[-1]))
+        found.append((place, force_of_step, error, float(np.median(weight[rows]))))
+    if len(found) < FEWEST:
         raise InputError(
             f"{path}: too few rows with suction lie between {expected.depth[0]:.3g} and"
             f" {expected.depth[-1]:.3g} m, where the runs are, for a fit (the log goes"
-            f" to {progress_of(log).max():.3g} m); it takes {FEWEST} steps of"
-            f" {width:.2g} m"
+            f" to {depth.max():.3g} m); it takes {FEWEST} steps of {width:.2g} m"
         )
-    stopped, resting = (tuple(map(float, some[x, 0])) for x in (stops, held))
-    depths, forces, errors = some[keep].T
-    bins = Bins(depths, forces, errors, stopped, resting)
+    depths, forces, errors, weights = np.array(found).T
+    bins = Bins(depths, forces, errors, weights, rests)
     refuse_force(path, log, bins, expected)
     return bins
 
 
-def has_stop(log: Log, number: np.ndarray, width: float) -> np.ndarray:
-    """Return which steps [m] were much slower than those around. number: that of the
-    step of each row [n], growing; width: of a step (m)."""
-    first = np.unique(number, return_index=True)[1]
-    if not np.isfinite(log.time).all():
-        return np.zeros(len(first), dtype=bool)
-    end = np.append(first[1:], len(number) - 1)
-    progress = progress_of(log)
-    spent = log.time[end] - log.time[first]
-    gone = (progress[end] - progress[first]).clip(min=width)
-    steps = np.diff(log.time)
-    tick = float(steps[steps > 0].min(initial=np.inf))
-    pace = spent / gone
-    near = (pace[max(i - AROUND, 0) : i + AROUND + 1] for i in range(len(pace)))
-    usual = np.array(list(map(np.median, near)))
-    return np.asarray(spent > LONG * (usual * gone + tick))
+def suction_in(bins: Bins, expected: Expected) -> np.ndarray:
+    """Return the suction [n] (kPa) of the steps of a log, under the weight there."""
+    return np.maximum((bins.resistance - bins.weight) / expected.area, 0.0)
+
+
+def held_by(log: Log, expected: Expected) -> tuple[float, float] | None:
+    """Return the suction (kPa) under which a caisson rests where a log ends, and that
+    of high resistance there, if it has been long in its last step with clearly more
+    suction than before, or with more resistance than the high estimate; None
+    otherwise, and where it has come to the planned depth."""
+    depth, width = progress_of(log), width_of(expected)
+    last, (clock, usual) = float(depth[-1]), clock_of(log, width)
+    end = depth > last - width
+    is_down = last > expected.planned - width
+    if is_down or not np.ptp(clock[end]) > LONG * usual:
+        return None
+    force, suction = resistance_of(log, expected), suction_of(log, expected)
+    if not np.isfinite(suction[end]).any():
+        return None
+    most = largest_in_a_row(suction[end])
+    high = float(np.interp(last, expected.depth, expected.high))
+    found = most, float(expected.suction(np.array(high), weight_of(log, expected)))
+    if np.isfinite(force[end]).any() and largest_in_a_row(force[end]) > high:
+        return found
+    before = (depth > last - (BEFORE + 1) * width) & ~end & np.isfinite(suction)
+    if not before.any():
+        return None
+    usual, middle = float(np.median(suction[before])), float(np.median(depth[before]))
+    best = np.interp([middle, last], expected.depth, expected.best)
+    above, here = expected.suction(best)
+    growth = max(float(here / above), 1.0) if above > 0 else np.inf
+    is_more = most > RISE * growth * usual and usual > least_suction(log, expected)
+    return found if is_more else None
+
+
+def clock_of(log: Log, width: float) -> tuple[np.ndarray, float]:
+    """Return the time of each row [n] (s), its number where there are no times; and
+    what the tip usually takes for a step (m), nan in a log of few steps."""
+    depth = progress_of(log)
+    clock = log.time if np.isfinite(log.time).all() else np.arange(float(len(depth)))
+    places, rows = np.unique(depth, return_index=True)
+    at = np.arange(depth[0], depth[-1], width)
+    spent = np.diff(np.interp(at, places, clock[rows]))
+    return clock, float(np.median(spent)) if len(spent) >= FEWEST else np.nan
 
 
 def refuse_depth(path: Path, depth: np.ndarray, expected: Expected) -> None:
@@ -179,16 +214,19 @@ def refuse_force(path: Path, log: Log, bins: Bins, expected: Expected) -> None:
     best = np.interp(bins.depth, expected.depth, expected.best)
     ahead = expected.suction(best)
     is_clear = ahead > SMALL * expected.suction(expected.best).max()
-    measured = expected.suction(bins.resistance, weight_of(log, expected))
+    measured = suction_in(bins, expected)
     ratios = {
         "weight": (np.nanmax(log.weight, initial=0.0) / expected.weight, FAR_WEIGHT),
-        "resistance": (float(np.median(bins.resistance / best)), FAR),
     }
+    what = "resistance" if np.isfinite(log.resistance).any() else "suction"
+    ratios[what] = float(np.median(bins.resistance / best)), FAR
     if is_clear.any() and np.isfinite(log.suction).any():
         ratio = float(np.median(measured[is_clear] / ahead[is_clear]))
         ratios["suction"] = ratio, FAR_SUCTION
     for name, (ratio, far) in ratios.items():
-        if ratio > 0 and not 1 / far < ratio < far:
+        # before any suction a crane may hold most of a weight
+        least = 0.0 if name == "weight" and not is_pumped(log) else 1 / far
+        if ratio > 0 and not least < ratio < far:
             raise InputError(
                 f"{path}: the {name} is {ratio:.2g} times that of the run, which no"
                 f" ground explains; check the unit of the {name}, the weight of the"

@@ -9,13 +9,15 @@ import numpy as np
 
 from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import Bins, Fit, Forecast
-from caisson.vessel_log.measured import Log, level_of
+from caisson.vessel_log.measured import Log
 from caisson.vessel_log.steps import (
     below_runs,
     disagreement,
     hangs,
+    held_by,
     least_suction,
     progress_of,
+    resistance_of,
     suction_of,
     weight_of,
     width_of,
@@ -68,7 +70,8 @@ def outside(expected: Expected, bins: Bins) -> list[tuple[str, float, float]]:
     found = []
     for side, rows in groupby(range(len(where)), lambda i: int(where[i])):
         depth = bins.depth[list(rows)]
-        if side and len(depth) >= FEWEST:
+        is_last = side > 0 and depth[-1] == bins.depth[-1]
+        if side and (is_last or len(depth) >= FEWEST):
             name = "above the high" if side > 0 else "below the low"
             found.append((name, float(depth[0]), float(depth[-1])))
     return found
@@ -104,13 +107,11 @@ def of_allowable(expected: Expected, log: Log) -> str:
 
 
 def ends_above(expected: Expected, log: Log) -> bool:
-    """Return whether the last step of a log has more than the allowable suction, by
-    the median of readings that follow each other."""
+    """Return whether a reading in the last step of a log has more than the allowable
+    suction."""
     depth, suction, limit = measured_and_allowable(expected, log)
-    if not len(depth):
-        return False
-    last = depth >= depth[-1] - width_of(expected)
-    return bool((level_of(suction) > limit)[last].any())
+    last = depth >= progress_of(log)[-1] - width_of(expected)
+    return bool((suction > np.maximum(limit, 0))[last].any())
 
 
 def of_source(expected: Expected) -> str:
@@ -125,20 +126,25 @@ def extrapolations(expected: Expected, upto: float = np.inf) -> str:
     return say(SENTENCES, "extrapolations", expected.run.shown, parts)
 
 
-def of_forecast(expected: Expected, log: Log, bins: Bins, forecast: Forecast) -> str:
-    """Return how far the caisson goes; or why nothing is known of that: the log is
-    deeper than the runs, or it ends with a refusal."""
+def no_forecast(expected: Expected, log: Log) -> str:
+    """Return why nothing can be said of what is to come: the log is deeper than the
+    runs, or ends with a refusal; nothing where a forecast can be made."""
     shown, last = expected.run.shown, float(progress_of(log)[-1])
     if below_runs(log, expected).any():
         return say(SENTENCES, "is_below", shown, last, float(expected.depth[-1]))
     if ends_above(expected, log):
         return say(SENTENCES, "is_above", shown, last)
-    if bins.held and bins.held[-1] == bins.depth[-1]:
-        return say(SENTENCES, "is_held", shown, last)
+    held = held_by(log, expected)
+    return say(SENTENCES, "is_held", shown, last, *held) if held else ""
+
+
+def of_forecast(expected: Expected, forecast: Forecast) -> str:
+    """Return how far the caisson goes."""
     met = outcome_of(expected, forecast)
     limit = np.interp(forecast.depth, expected.depth, expected.allowable)
     share = float(np.max(forecast.high / limit)) if met.first is None else 0.0
     beyond = extrapolations(expected, np.inf if met.last is None else met.last)
+    shown = expected.run.shown
     return say(SENTENCES, "forecast", shown, forecast, met, share, beyond)
 
 
@@ -158,7 +164,8 @@ def of_readings(log: Log, expected: Expected, bins: Bins) -> list[str]:
     below = int(below_runs(log, expected).sum()), last
     hanging = int(hangs(log, expected).sum()), least_suction(log, expected)
     differs = disagreement(log, expected)
-    what = above, below, hanging, bins.stops, bins.held, differs
+    no_force = ~np.isfinite(resistance_of(log, expected)) & ~hangs(log, expected)
+    what = above, below, hanging, int(no_force.sum()), bins.rests, differs
     found = say_rows(SENTENCES, "readings", expected.run.shown, *what)
     remarks = [f"{text[0].upper()}{text[1:]}." for text in log.remarks]
     return remarks + [text for _, text in found]
@@ -185,11 +192,12 @@ def of_gauges(log: Log, expected: Expected) -> list[str]:
 
 
 def said(
-    expected: Expected, log: Log, bins: Bins, fit: Fit, forecast: Forecast
+    expected: Expected, log: Log, bins: Bins, fit: Fit, forecast: Forecast | None
 ) -> list[str]:
-    """Return the sentences, that of the forecast first."""
+    """Return the sentences, that of the forecast first, or why there is none."""
+    ahead = of_forecast(expected, forecast) if forecast else no_forecast(expected, log)
     lines = (
-        of_forecast(expected, log, bins, forecast),
+        ahead,
         of_allowable(expected, log),
         of_band(expected, bins),
         say(SENTENCES, "fit", fit),
