@@ -30,7 +30,7 @@ COMMANDS = {
     "scripts/lab": lab.__main__.COMMANDS,
     "tools/workshop": caisson_workshop.__main__.COMMANDS,
 }
-MOST_COMMANDS, MOST_LINES = 12, 29_900  # of the user's package
+MOST_COMMANDS, MOST_LINES = 12, 30_100  # of the user's package
 
 
 # of the package, in the order in which one may import another one

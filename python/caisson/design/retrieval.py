@@ -56,7 +56,7 @@ def outward(
     """Return the overpressure (Pa) under which sand outside loses its weight; nan where
     there is clay along the wall. permeability_ratio: of the plug to the sand outside.
     """
-    if has_clay(layers, h):
+    if h <= 0 or has_clay(layers, h):
         return nan
     weight, diameter = vertical_stress(layers, h) / h, skirt.outer_diameter
     inside = houlsby_byrne(weight, h, diameter, permeability_ratio)

@@ -27,9 +27,11 @@ permeability. The pressure of the water on the end of the wall is left out.
 Ground at or a distance z below the tip that is n times as permeable as the plug, whose
 permeability is h over the sum of d / k, feeds the plug, so that more of the head is
 lost inside. Where z is 0 the share a is that of Houlsby and Byrne for a plug with 1 / n
-of the permeability of the ground; of what that takes from a, exp(-z / 0.3 D) is left
-(custom: 0 to 0.06 below own finite differences, whose mean over the base of the plug
-has 0.04 where sand stands 0.1 m over gravel a hundred times as permeable).
+of the permeability of the ground; of what that takes from a, exp(-z / 0.3 D) is left.
+What lies between counts with the thickness that has its d / k in the ground at the tip,
+if this is more (custom: 0 to 0.15 below own finite differences, whose mean over the
+base of the plug is 0.04 where sand stands 0.1 m over gravel a hundred times as
+permeable).
 
 Through clay hardly any water flows, so that suction leaves the forces as they are.
 
@@ -46,6 +48,7 @@ from caisson.design.method import Forces, vertical_stress
 from caisson.design.seepage import pressure_factor, senders_randolph
 
 
+AT_TOP = 1e-5  # m, below the top of a layer on which a tip rests
 REACH = 0.3  # of the diameter, over which permeable ground below the tip counts
 ROUNDS = 40  # of a bisection, which leave 1e-12 of a depth
 PARTS = (*np.linspace(0, 1, 25)[1:-1], 1 - 1e-6, 1)  # of a layer, asked one by one
@@ -98,7 +101,8 @@ def self_weight_penetration(
         for part in PARTS:
             below = top + part * (bottom - top)
             if stands(below):
-                return bisect(stands, above, below, ROUNDS)[1]
+                found = bisect(stands, above, below, ROUNDS)[1]
+                return top if 0 < top and found - top < AT_TOP else found
             above = below
         top = bottom
     return nan
@@ -121,14 +125,17 @@ def share_at_tip(caisson: Caisson, h: float, permeability_ratio: float = 1.0) ->
     if not pieces or not all(layer.permeability for layer, _ in pieces):
         return share
     plug = h / sum(d / layer.permeability for layer, d in pieces)
-    found = share
-    for top, permeability in layers[len(pieces) - 1 :]:
-        if permeability < pieces[-1][0].permeability:
-            break  # which keeps from the plug what is below it
+    at_tip, below = pieces[-1][0].permeability, layers[len(pieces) - 1 :]
+    ends = [max(top - h, 0.0) for top, _ in below[1:]]
+    found, above, distance = share, 0.0, 0.0
+    for (_, permeability), end in zip(below, [*ends, inf]):
         ratio = permeability_ratio * min(plug / permeability, 1.0)
         least = pressure_factor(h / caisson.outer_diameter, ratio)
-        left = exp(-max(top - h, 0.0) / (REACH * caisson.outer_diameter))
+        left = exp(-distance / (REACH * caisson.outer_diameter))
         found = min(found, share + (least - share) * left)
+        # ground that is less permeable than that at the tip is as if it were thicker
+        distance += (end - above) * max(at_tip / permeability, 1.0)
+        above = end
     return found
 
 

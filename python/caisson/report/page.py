@@ -244,6 +244,7 @@ def of_installation(
     rings = limits.rings_counted(run, found.depth)
     site = theory.site_of(run)
     tops = suction_methods.of_plug(site, found.depth, plug_stability.uncovered) or []
+    tops = [top + theory.below_cover(site)[1] for top in tops]
     bounds = found.required_bounds if found.has_suction else found.force_bounds
     reach = bounds.end if bounds else None, found.depth[-1]
     way = installation.way_to_an_error(run)

@@ -40,7 +40,8 @@ def given(run: Results, name: str) -> float:
 def factor_of(run: Results, depth: float) -> float:
     """Return a, the pressure at the tip over the suction, by Houlsby & Byrne. Raises
     NotApplicable."""
-    site = theory.without_cover(theory.site_of(run))
+    site, cover = theory.below_cover(theory.site_of(run))
+    depth = depth - cover
     byrne = theory.houlsby_byrne_of(site, depth)
     caisson = byrne.by_name[UNDISTURBED]
     return share_at_tip(caisson, depth, byrne.permeability_ratio)
@@ -50,8 +51,9 @@ class Seal(NamedTuple):
     """Where the caisson rests by its weight: the first suction that the seal allows by
     its factor, the one that is applied (0 if it is not given), the exit gradient under
     it, or else under the one that is allowed, the critical one, and the least embedment
-    for it, nan where it is not known; and where it rests with high resistance, with
-    what is allowed there, nan without that."""
+    for it, nan where it is not known; the way of the water along both walls; and where
+    it rests with high resistance, with what is allowed there, nan without that. Where
+    it rests in clay, it is that of high resistance, which rests in sand."""
 
     rest: float
     allowed: float
@@ -59,37 +61,42 @@ class Seal(NamedTuple):
     gradient: float
     critical: float
     least: float
+    path: float
     shallow: tuple[float, float]
+    of_high: bool
 
-    @property
-    def path(self) -> float:
-        """The length of the way of the water along both walls."""
-        return 2 * self.rest
+
+def least_rest(run: Results, rest: float) -> float:
+    """Return the least penetration by weight (m) of a run, which is known, and of low
+    and high resistance."""
+    rests = map(rest_of, band_of(run).values())
+    return min([rest, *(h for h in rests if h is not None)])
 
 
 def seal_of(run: Results, found: Installation) -> Seal | None:
     """Return the seal in sand by Houlsby & Byrne."""
-    if not found.rest:
+    if not (rest := found.rest):
         return None
-    rests = [h for h in map(rest_of, band_of(run).values()) if h is not None]
-    shallow = min([*rests, found.rest])
-    end = min(FURTHER * found.rest, float(found.depth[-1]))
-    depth = np.union1d(np.linspace(end / ROWS, end, ROWS), [found.rest, shallow])
-    _, piping, _ = suction_methods.limits_at(theory.site_of(run), depth)
-    at_rest = depth == found.rest
-    if not np.isfinite(piping[at_rest]).all():
+    site, shallow = theory.site_of(run), least_rest(run, rest)
+    if not theory.flows_to(site, rest) >= rest:  # in clay, but high resistance in sand
+        rest = shallow
+    end = min(FURTHER * rest, float(found.depth[-1]))
+    depth = np.union1d(np.linspace(end / ROWS, end, ROWS), [rest, shallow])
+    _, piping, _ = suction_methods.limits_at(site, depth)
+    at_rest = depth == rest
+    if rest <= theory.below_cover(site)[1] or not np.isfinite(piping[at_rest]).all():
         return None
     allowed, applied = piping / found.factors[limits.PIPING], given(run, START)
     suction = applied or float(allowed[at_rest][0])
-    a = factor_of(run, found.rest)
-    gradient = sealing.exit_gradient(suction, found.rest, a)
+    a, embedment = factor_of(run, rest), rest - theory.below_cover(site)[1]
+    gradient = sealing.exit_gradient(suction, embedment, a)
     critical = gradient * float(piping[at_rest][0]) / suction
     least = sealing.least_embedment(depth, allowed, applied) if applied else nan
     parts = float(allowed[at_rest][0]) / 1e3, applied / 1e3, gradient, critical, least
     high = nan, nan
-    if shallow < found.rest:
+    if shallow < rest:
         high = shallow, float(allowed[depth == shallow][0]) / 1e3
-    return Seal(found.rest, *parts, high)
+    return Seal(rest, *parts, 2 * embedment, high, rest < found.rest)
 
 
 class Grout(NamedTuple):
@@ -336,7 +343,7 @@ def stop_of(run: Results, found: Installation, planned: float) -> Stop:
     needed = np.flatnonzero((found.required > NOTHING) & known)
     rows = set[int]()
     if len(needed):  # from the row above the depth of rest, where suction begins
-        at_rest = known & (found.depth <= (found.rest or 0.0))
+        at_rest = known & (found.depth <= least_rest(run, found.rest or 0.0))
         first = (
             min(needed[0], np.flatnonzero(at_rest)[-1]) if at_rest.any() else needed[0]
         )

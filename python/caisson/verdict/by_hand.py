@@ -14,7 +14,8 @@ takes from tip Q and inner friction F_i what Senders & Randolph say, else nothin
 
     s = (R - W) / (A + (Q + F_i) / s_cr),  R = Q + F_i + F_o,  or  s = (R - W) / A.
 
-Where flow is not steady (run_review.unsteady_flow) it takes nothing from the forces.
+Where flow is not steady, a share of v D / c_v of what it takes is left out, and all of
+it from 1 on (custom; run_review.unsteady_flow).
 High resistance takes no less than the high case of Houlsby & Byrne by their own flow:
 where no suction below piping suffices for them, it ends there.
 
@@ -40,7 +41,7 @@ from caisson.evaluation import UNDER_WEIGHT, heave_of_ledges
 from caisson.results import Results, ResultsError, Table
 from caisson.runner import query, set_options
 from caisson.units import WATER
-from caisson.verdict import run_review, suction_methods, theory
+from caisson.verdict import suction_methods, theory
 
 COLUMNS = dict(
     zip(("tip_force_N", "inner_friction_N", "outer_friction_N"), theory.PARTS)
@@ -160,14 +161,14 @@ class ByHand(Results):
     @functools.cached_property
     def sand_end(self) -> float:
         """The depth (m) down to which water flows around the tip."""
-        return theory.above_clay(theory.without_cover(self.site), self.end)
+        return theory.flows_to(self.site, self.end)
 
     @functools.cached_property
     def byrne(self) -> HoulsbyByrne | None:
         """Houlsby & Byrne, whose flow it is; None where it does not apply."""
         try:
-            site = theory.without_cover(self.site)
-            return theory.houlsby_byrne_of(site, self.sand_end)
+            site, cover = theory.below_cover(self.site)
+            return theory.houlsby_byrne_of(site, self.sand_end - cover)
         except theory.NotApplicable:
             return None
 
@@ -209,14 +210,14 @@ class ByHand(Results):
         """Return the required suction [n] (Pa), below 0 where the weight suffices."""
         area = pi / 4 * theory.skirt_of(self.site).inner_diameter ** 2
         critical, piping = suction_methods.flow_above_clay(self.site, depth)
-        if is_unsteady := run_review.unsteady_flow(self) is not None:
-            critical = np.full(len(depth), np.inf)
         found = suction_of(forces, self.weight, area, critical)
-        if is_unsteady or self.estimate != HIGH or self.byrne is None:
+        if self.estimate != HIGH or self.byrne is None:
             return found
         case = self.byrne, suction_methods.HIGH, self.weight
-        for i in np.flatnonzero(depth <= self.sand_end):
-            most = suction_methods.by_byrne(*case, float(depth[i]))
+        cover = theory.below_cover(self.site)[1]
+        for i in np.flatnonzero((depth > cover) & (depth <= self.sand_end)):
+            at = float(depth[i]) - cover, self.site.unsteady
+            most = suction_methods.by_byrne(*case, *at)
             found[i] = max(found[i], piping[i] if np.isnan(most) else most)
         return found
 
@@ -230,9 +231,10 @@ class ByHand(Results):
         return by_tip + heave_of_ledges(self, depth)
 
     def permeability_at(self, h: float) -> float:
-        """Return the permeability (m/s) of the plug down to an embedment (m) for the
-        flow across its layers, 0 where one has none."""
-        layers = [entry for _, entry in self.site.layers(h)]
+        """Return the permeability (m/s) of the plug down to an embedment (m) below a
+        thin cover of clay for the flow across its layers, 0 where one has none."""
+        site, _ = theory.below_cover(self.site)
+        layers = [entry for _, entry in site.layers(h)]
         tops = [theory.top_of(entry) for entry in layers]
         k = [float(entry.get("permeability_m_s") or 0) for entry in layers]
         if not all(k) or h <= 0:
@@ -247,7 +249,8 @@ class ByHand(Results):
         caisson = self.byrne.by_name[UNDISTURBED]
         ratio, flow, share = self.byrne.permeability_ratio, [], []
         flowing = np.where(depth <= self.sand_end, np.maximum(required, 0.0), 0.0)
-        for h, s in zip(map(float, depth), flowing):
+        below = np.maximum(depth - theory.below_cover(self.site)[1], 0.0)
+        for h, s in zip(map(float, below), flowing):
             left = 1 - suction.share_at_tip(caisson, h, ratio)
             gradient = left * s / (WATER * h) if h > 0 else 0.0
             area = suction.plug_area(caisson)

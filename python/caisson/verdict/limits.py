@@ -104,7 +104,7 @@ def why_absent(run: Results, kind: str) -> str:
             soils = theory.soils_of(site, inf)
         except theory.NotApplicable as reason:
             return str(reason)
-        if theory.without_cover(site) is not site:
+        if theory.below_cover(site)[1]:
             share = 100 * theory.COVER
             return (
                 f"clay on top thinner than {share:g} % of the diameter is none (custom)"

@@ -61,8 +61,11 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
         return None
     if (end := reached(found, found.allowable)) is None:
         return end_by_program(run)
-    if i := end[1]:  # rows are far apart where a tip comes into another layer
-        between = np.linspace(found.depth[i - 1], found.depth[i], FINER)
+    # by hand the forces are known above the first row, too
+    i, first = end[1], float((run.history[DEPTH] if run.by_hand else found.depth)[0])
+    if i or found.depth[0] > first:  # rows are far apart where another layer begins
+        above = found.depth[i - 1] if i else first
+        between = np.linspace(above, found.depth[i], FINER)
         finer = installation.installation_of(run, Rate(), between)
         if finer and (sharper := reached(finer, finer.allowable)):
             found, end = finer, sharper
@@ -70,7 +73,7 @@ def end_of_suction(run: Results, found: Installation) -> tuple[float, str] | Non
     words = found.named(name).replace(name, REASONS.get(name, name))
     # it rests without suction, unless wall or lid hold it up above
     at_rest = 0.0 if found.held_up[end[1]] else found.rest or 0.0
-    depth = max(limits.rounded_down(end[0]), float(found.depth[0]), at_rest)
+    depth = max(limits.rounded_down(end[0]), first, at_rest)
     return depth, words + found.remark(name, end[1])
 
 

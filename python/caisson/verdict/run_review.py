@@ -3,6 +3,7 @@
 from which clay has come off, work that the transfer between points and nodes has lost,
 and soil that moves too fast."""
 import functools
+import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -42,7 +43,8 @@ AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 USUAL_RATE, P_WAVE = 1.0 / 3600, 1.35
 FEWEST_WALLS = 3  # thicknesses of the wall, over which forces build up
 LEAST_ABOVE = 0.1  # m, of a lid above the sea
-UNSTEADY = 1.0  # v D / c_v, below which flow counts as steady
+FASTER = 10.0  # times c_v, by which ground drains what it lies above or below
+UNSTEADY = 0.1  # v D / c_v, below which flow counts as steady
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 
 
@@ -230,21 +232,40 @@ class Review:
         return say("fast", percent(found.share), found.penetration, most)
 
 
+def consolidation_of(layer: dict[str, Any]) -> float:
+    """Return c_v = k M / gamma_w of a layer of sand (m2/s); 0 of another one."""
+    names = "permeability_m_s", "youngs_modulus_Pa", "friction_angle_deg"
+    k, modulus, angle = (float(layer.get(name) or 0) for name in names)
+    return k * P_WAVE * modulus / WATER if angle > 0 else 0.0
+
+
+def thickness_of(tops: list[float], c_v: list[float], i: int) -> float:
+    """Return the thickness (m) of the ground about a layer that drains no faster than
+    it does: down to a layer on either side that does, or without end."""
+    first = last = i
+    while first > 0 and c_v[first - 1] < FASTER * c_v[i]:
+        first -= 1
+    while last + 1 < len(tops) and c_v[last + 1] < FASTER * c_v[i]:
+        last += 1
+    return [*tops, math.inf][last + 1] - tops[first]
+
+
 def unsteady_flow(run: Results) -> tuple[int, float] | None:
     """Return the layer of sand in which the flow is least steady as a pump moves the
-    caisson, and v D / c_v there, by c_v = k M / gamma_w, if that is above UNSTEADY."""
+    caisson, and v D / c_v there, if that is above UNSTEADY. Ground that is thinner than
+    D drains as much faster as its thickness squared is smaller."""
     diameter = float(run.scene.get("diameter_m") or 0)
-    if not run.weight or run.entry("Water/Level") != "seepage":
+    if not run.weight or not diameter or run.entry("Water/Level") != "seepage":
         return None
-    found = dict[int, float]()
-    for number, layer in enumerate(run.scene.get("layers", []), 1):
-        names = "permeability_m_s", "youngs_modulus_Pa", "friction_angle_deg"
-        k, modulus, angle = (float(layer.get(name) or 0) for name in names)
-        if float(layer.get("top_depth_m") or 0) >= (run.planned or 0) or angle <= 0:
+    layers = run.scene.get("layers", [])
+    tops = [float(layer.get("top_depth_m") or 0) for layer in layers]
+    c_v, found = [consolidation_of(layer) for layer in layers], dict[int, float]()
+    for i, layer in enumerate(layers):
+        if tops[i] >= (run.planned or 0) or not layer.get("friction_angle_deg"):
             break  # below clay no water flows
-        c_v = k * P_WAVE * modulus / WATER
-        ratio = USUAL_RATE * diameter / c_v if c_v > 0 else 0.0
-        found[int(layer.get("layer", number))] = ratio
+        share = min(thickness_of(tops, c_v, i) / diameter, 1.0)
+        ratio = share**2 * USUAL_RATE * diameter / c_v[i] if c_v[i] > 0 else 0.0
+        found[int(layer.get("layer", i + 1))] = ratio
     number, most = max(found.items(), key=lambda x: x[1], default=(0, 0.0))
     return (number, most) if most > UNSTEADY else None
 

@@ -103,25 +103,37 @@ def weight_of(scene: theory.Scene) -> float:
     return float(scene[WEIGHT])
 
 
-def by_byrne(byrne: HoulsbyByrne, column: str, weight: float, h: float) -> float:
+def by_byrne(
+    byrne: HoulsbyByrne, column: str, weight: float, h: float, unsteady: float = 0.0
+) -> float:
     """Return the suction (Pa) that Houlsby & Byrne require in the case of a column at
-    an embedment (m), nan where none below piping suffices."""
+    an embedment (m), nan where none below piping suffices. unsteady: as of a Site."""
     case = byrne.by_name[CASES[column]]
-    ratio = byrne.permeability_ratio
-    return installation.required_suction(case, weight, h, ratio)
+    missing = max(case.resistance(h) - weight, 0.0)
+    plain = missing / installation.plug_area(case)
+    if unsteady == 1:
+        return plain
+    found = installation.required_suction(case, weight, h, byrne.permeability_ratio)
+    return found + unsteady * (plain - found)
 
 
 def suctions_at(
-    byrne: HoulsbyByrne, cones: Mapping[str, Method], weight: float, h: float
+    byrne: HoulsbyByrne,
+    cones: Mapping[str, Method],
+    weight: float,
+    h: float,
+    unsteady: float = 0.0,
 ) -> dict[str, float]:
     """Return the suctions of the methods at an embedment, in Pa. cones: those by cone
-    that apply."""
+    that apply; unsteady: as of a Site."""
     ratio = byrne.permeability_ratio
     caisson = byrne.by_name[UNDISTURBED]
     mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
     critical = installation.critical_suction(caisson, h)
-    loads = weight, installation.plug_area(caisson), critical
-    required = {column: by_byrne(byrne, column, weight, h) for column in CASES}
+    counted = critical / (1 - unsteady) if unsteady < 1 else inf
+    loads = weight, installation.plug_area(caisson), counted
+    at = weight, h, unsteady
+    required = {column: by_byrne(byrne, column, *at) for column in CASES}
     for key, method in cones.items():
         for column, case in zip(CONE_COLUMNS[key], method.cases):
             forces = method.forces(h, case)
@@ -174,8 +186,10 @@ def of_plug(
     of: Callable[[Skirt, list[Layer], np.ndarray], Of],
 ) -> Of | None:
     """Return what a function of plug_stability says of a plug of clay at embedments [n]
-    (m); None without clay."""
-    layers = known_layers_of(theory.without_cover(site), float(depth.max()))
+    (m), below a thin cover of clay; None without clay."""
+    site, cover = theory.below_cover(site)
+    depth = np.maximum(depth - cover, 0.0)
+    layers = known_layers_of(site, float(depth.max()))
     return of(theory.skirt_of(site), layers, depth) if layers else None
 
 
@@ -190,7 +204,8 @@ def soft_below(site: theory.Site, depth: np.ndarray) -> np.ndarray:
     [n] at embedments [n]; nan where the clay at the tip does, or where there is none.
     """
     found = of_plug(site, depth, plug_stability.soft_below)
-    return np.full(len(depth), np.nan) if found is None else found
+    cover = theory.below_cover(site)[1]
+    return np.full(len(depth), np.nan) if found is None else found + cover
 
 
 def flow_above_clay(
@@ -199,18 +214,20 @@ def flow_above_clay(
     """Return what flow does at embedments [n] (m): s_cr of Senders & Randolph, infinite
     where no water flows, and the suction of piping by Houlsby & Byrne, nan there, [n]
     (Pa). Water flows while the tip is in sand above the first clay. Below a thin cover
-    of clay it may, or may not: it pipes, and takes nothing from the forces."""
+    of clay it may, or may not: it pipes, and takes nothing from the forces. Where flow
+    is not steady, it takes a share less."""
     critical, piping = np.full(len(depth), inf), np.full(len(depth), nan)
-    open_site = theory.without_cover(site)
-    is_covered, site = open_site is not site, open_site
+    site, cover = theory.below_cover(site)
+    depth = np.maximum(depth - cover, 0.0)
     if end := theory.above_clay(site, float(depth.max())):
         with suppress(theory.NotApplicable):
             byrne = theory.houlsby_byrne_of(site, end)
             caisson, ratio = byrne.by_name[UNDISTURBED], byrne.permeability_ratio
             for i in np.flatnonzero(depth <= end):
                 h = float(depth[i])
-                if not is_covered:
-                    critical[i] = installation.critical_suction(caisson, h)
+                if not cover and site.unsteady < 1:
+                    found = installation.critical_suction(caisson, h)
+                    critical[i] = found / (1 - site.unsteady)
                 piping[i] = installation.piping_suction(caisson, h, ratio)
     return critical, piping
 
@@ -273,10 +290,11 @@ def answers_of(site: theory.Site, depth: np.ndarray) -> Answers:
     for method in BY_CONE:
         with suppress(theory.NotApplicable):
             cones[method.key] = method.of_site(site, deepest)
-    rows = [suctions_at(byrne, cones, weight, float(h)) for h in depth]
+    known = byrne, cones, weight
+    rows = [suctions_at(*known, float(h), site.unsteady) for h in depth]
     suctions = {x: np.array([row.get(x, nan) for row in rows]) for x in METHODS}
-    known = [cone.profile for cone in cones.values() if isinstance(cone, ConeMethod)]
-    assumed = known[0].assumed if known else ""
+    profiles = [x.profile for x in cones.values() if isinstance(x, ConeMethod)]
+    assumed = profiles[0].assumed if profiles else ""
     rests = rests_of(theory.METHODS[0], site, deepest)
     rest = {x: rests[CASES[x]] for x in RANGE if np.isfinite(rests[CASES[x]])}
     return Answers(depth, suctions, rest, assumed=assumed)

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from caisson.density_law import BY_DENSITY
+from caisson.verdict.run_review import unsteady_flow
 from caisson.results import Results, ResultsError
 from caisson.template import say
 from caisson.design import andersen, assumed, clay, dnv, houlsby_byrne, layered
@@ -54,6 +55,9 @@ class Site(NamedTuple):
     level: str = "drained"  # Water/Level
     cone: Profile | None = None  # a cone test, if the user has given one
     is_running: bool = False  # and has left no run.json yet
+    unsteady: float = (
+        0.0  # share of what steady flow takes from forces, that it does not
+    )
 
     def layers(self, deepest: float) -> list[tuple[int, Scene]]:
         """Return the layers that begin above a depth (m), with their numbers; a
@@ -77,7 +81,9 @@ def site_of(run: Results) -> Site:
     given = {**(run.scene.get("design_methods") or {}), **assumed.of_run(run.directory)}
     flush = run.entry("Rigid body/Flush face")
     scene = {**run.scene, "design_methods": given, FLUSH: flush}
-    site = Site(scene, run.entry("Water/Level") or "drained", test)
+    found = unsteady_flow(run)
+    share = min(found[1], 1.0) if found else 0.0
+    site = Site(scene, run.entry("Water/Level") or "drained", test, unsteady=share)
     if test is None or run.by_hand is None or run.planned is None:
         return site
     return site._replace(cone=continued(site, test, run.planned))
@@ -227,18 +233,26 @@ def soils_of(site: Site, deepest: float) -> list[tuple[float, str]]:
     return [(top_of(x), soil) for _, x, soil in layers_with_soils(site, deepest)]
 
 
-def without_cover(site: Site) -> Site:
-    """Return a site where clay from the mudline down that is too thin for a plug is as
-    the sand below it: suction breaks it without harm, and then water flows."""
+def below_cover(site: Site) -> tuple[Site, float]:
+    """Return a site without clay from the mudline down that is too thin for a plug, and
+    the thickness of that (m), by which its depths are less; 0 without such clay.
+    Suction breaks the clay, and then water flows."""
     with suppress(NotApplicable):
         diameter = skirt_of(site).outer_diameter
-        soils = soils_of(site, np.inf)
-        tops = [top for top, soil in soils if soil == "sand"]
+        tops = [top for top, soil in soils_of(site, np.inf) if soil == "sand"]
         if tops and 0 < tops[0] <= COVER * diameter:
-            layers = [dict(x) for _, x in site.layers(np.inf) if top_of(x) >= tops[0]]
-            layers[0]["top_depth_m"] = 0.0
-            return site._replace(scene={**site.scene, "layers": layers})
-    return site
+            every = [x for _, x in site.layers(np.inf) if top_of(x) >= tops[0]]
+            layers = [{**x, "top_depth_m": top_of(x) - tops[0]} for x in every]
+            return site._replace(scene={**site.scene, "layers": layers}), tops[0]
+    return site, 0.0
+
+
+def flows_to(site: Site, deepest: float) -> float:
+    """Return the depth (m), at most deepest, down to which water flows around the tip:
+    to the first clay, but for a thin cover; 0 where it does not."""
+    below, cover = below_cover(site)
+    found = above_clay(below, deepest - cover)
+    return found + cover if found > 0 else 0.0
 
 
 def above_clay(site: Site, deepest: float) -> float:
