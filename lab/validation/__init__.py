@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Studies of kind "validation": runs beside measurements, with what is asked of them.
 
-A study of this kind has two keys of its own,
+A study of this kind has keys of its own,
 
     compare = "triaxial"       # the comparison, one of COMPARISONS
     measured = "triaxial.csv"  # what was measured, in a file beside the scene
+    every = 2                  # run every second test only
 
 and its runs are made by that module. It writes a picture and rows of a table; each row
 is a quantity, what was computed, what is asked, and whether that is met. A shortfall
@@ -25,7 +26,7 @@ from caisson.table import number
 from lab import outcome
 
 NAME = "validation"
-STUDY_KEYS = {"compare", "measured"}
+STUDY_KEYS = {"compare", "measured", "every"}
 COLUMNS = ["comparison", "quantity", "computed", "asked", "verdict"]
 # each is the module of this name in the folder of a case
 COMPARISONS = {
@@ -116,7 +117,8 @@ def measured_of(directory: Path, keys: Mapping[str, Any]) -> Path:
 def make_runs(study: Mapping[str, Any], scene: Run) -> list[dict[str, Any]]:
     """Return the runs of a study, in the directory of whose scene the measurements
     are."""
-    return comparison_of(study).runs_of(measured_of(scene.scene.parent, study))
+    runs = comparison_of(study).runs_of(measured_of(scene.scene.parent, study))
+    return runs[:: study.get("every", 1)]
 
 
 def evaluate(studies: Sequence[Study], options: Options, minutes: float) -> int:

@@ -106,9 +106,9 @@ class Prefix(ProgramTest):
 
     def test_run(self) -> None:
         """A scene of the installation, by its name, into the current directory."""
-        said = self.installed("caisson", "run", "column.prm")
+        said = self.installed("caisson", "run", "column.prm", *SHORT)
         results = self.here / "results/column"
-        self.assertTrue((results / "points.csv").is_file())
+        self.assertTrue((results / "history.csv").is_file())
         self.assertEqual(
             summary(results)["scene_file"],
             str(self.prefix / "share/caisson_mpm/prm/column.prm"),

@@ -37,6 +37,7 @@ class Asked(NamedTuple):
 
 ASKED = {
     "triaxial": Asked(0.06, 1.0, True),
+    "triaxial_quick": Asked(0.06, 1.0, True),
     "triaxial_density": Asked(0.08, 1.5, False),
 }
 
@@ -119,7 +120,9 @@ def peak_of(curve: Table) -> Peak:
 
 def compare(study: Study, measured: Path, figure: Figure) -> list[Row]:
     """Draw computed over measured, and return the rows."""
-    tests = measured_tests(measured)
+    names, tests = {run.name for run in study.runs}, measured_tests(measured)
+    is_run = np.array([f"{number:.0f}" in names for number in tests["test"]])
+    tests = {name: values[is_run] for name, values in tests.items()}
     peaks = np.array([peak_of(curve_of(run)) for run in study.runs]).T
     found = dict(zip(Peak._fields, peaks))
     draw(figure, tests, found)

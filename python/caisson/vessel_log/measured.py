@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import median_filter
+
 from caisson.design import cone_file, cone_grid
 from caisson.design.cone_table import Rows, cell_of, is_number, value_of
 from caisson.design.cone_words import BRACKETS, plain
@@ -225,9 +227,14 @@ def started_anew(time: np.ndarray, depth: np.ndarray, remarks: list[str]) -> np.
     return time + np.cumsum(np.where(back, -np.diff(time, prepend=time[0]), 0.0))
 
 
+def smooth(depth: np.ndarray) -> np.ndarray:
+    """Return depths [n] (m) without the noise of single rows."""
+    return depth if len(depth) < 5 else median_filter(depth, 5, mode="nearest")
+
+
 def way_up(depth: np.ndarray) -> float:
     """Return how far depths [n] (m) go up from row to row in all."""
-    return float(-np.diff(depth).clip(max=0).sum())
+    return float(-np.diff(smooth(depth)).clip(max=0).sum())
 
 
 def times_of(table: np.ndarray, remarks: list[str]) -> np.ndarray:
@@ -263,6 +270,11 @@ def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
         if (np.diff(once[:, 0]) < 0).any():
             remarks.append("rows were not in the order of time, and were sorted")
         once = once[np.argsort(once[:, 0], kind="stable")]
+    elif way_up(once[:, 1]) > np.ptp(once[:, 1]) / 2:
+        remarks.append(
+            "rows without times were not in the order of depth, and were sorted"
+        )
+        once = once[np.argsort(once[:, 1], kind="stable")]
     columns = without_spikes(dict(zip(QUANTITIES, once.T)), remarks)
     columns["flow"] = np.abs(columns["flow"])
     suction = columns["suction"][np.isfinite(columns["suction"])]

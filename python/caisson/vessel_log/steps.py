@@ -10,13 +10,12 @@ caisson rested under growing suction.
 from pathlib import Path
 
 import numpy as np
-from scipy.ndimage import median_filter
 
 from caisson.disk import InputError
 from caisson.vessel_log.expected import Expected
 from caisson.vessel_log.forecast import LEAST_NOISE, Bins
 from caisson.table import NOTHING
-from caisson.vessel_log.measured import AROUND, Log, level_of
+from caisson.vessel_log.measured import AROUND, Log, level_of, smooth
 
 SHARE = 0.01  # of the way: the length of a step
 LONG = 3.0  # times as long as usual the tip is in a step, where the caisson rests
@@ -37,9 +36,7 @@ AGREE = 0.1  # share by which two columns may differ that tell the same
 def progress_of(log: Log) -> np.ndarray:
     """Return the depth [n] that the tip has reached up to each row, without the noise
     of single readings."""
-    if not np.isfinite(log.time).all() or len(log.depth) < 5:
-        return log.depth
-    return np.maximum.accumulate(median_filter(log.depth, 5, mode="nearest"))
+    return np.maximum.accumulate(smooth(log.depth))
 
 
 def weight_of(log: Log, expected: Expected) -> float:
@@ -178,11 +175,11 @@ def held_by(log: Log, expected: Expected) -> tuple[float, float] | None:
     before = (depth > last - (BEFORE + 1) * width) & ~end & np.isfinite(suction)
     if not before.any():
         return None
-    usual, middle = float(np.median(suction[before])), float(np.median(depth[before]))
+    less, middle = float(np.median(suction[before])), float(np.median(depth[before]))
     best = np.interp([middle, last], expected.depth, expected.best)
     above, here = expected.suction(best)
     growth = max(float(here / above), 1.0) if above > 0 else np.inf
-    is_more = most > RISE * growth * usual and usual > least_suction(log, expected)
+    is_more = most > RISE * growth * less and less > least_suction(log, expected)
     return found if is_more else None
 
 
