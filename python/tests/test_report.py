@@ -528,7 +528,7 @@ class Report(WithPage):
         labels = [[c["label"] for c in figure["curves"]] for figure in figures]
         self.assertFalse([name for name in labels[1] if "DNV" in name])
         self.assertFalse([name for name in labels[0] if "by cone" in name])
-        self.assertEqual(len(labels[0]), 10)
+        self.assertEqual(len(labels[0]), 8)
 
     def test_run_of_an_earlier_version(self) -> None:
         """Without section Design, whose factors limit the suction, it is refused in a
@@ -558,7 +558,7 @@ class Report(WithPage):
     def test_in_a_browser(self) -> None:
         """No error on the console; curves are drawn, read, shown and saved, also with a
         cone test."""
-        visited, curves = self.path / "visited.html", 13
+        visited, curves = self.path / "visited.html", 11
         for width in (400, 1200):
             if width == 1200:
                 (self.path / "cone.csv").write_text("depth_m,qc_MPa\n0,0\n9,18\n")

@@ -8,12 +8,8 @@ the critical suction the sand inside loses its weight, or water breaks through i
     caissons in sand, doi:10.1680/geng.2005.158.3.135:  a, and s = gamma' h / (1 - a).
     Senders and Randolph (2009), CPT-based method for the installation of suction
     caissons in sand, J. Geotech. Geoenviron. Eng. 135(1).
-    Ibsen and Thilsted (2011), Numerical study of piping limits for suction
-    installation of offshore skirted foundations and anchors in layered sand,
-    ISFOG.
-    Feld (2001), Suction buckets, thesis, Aalborg University.
 
-All fits are functions of h / D, the embedment of the tip over the diameter; here
+Both fits are functions of h / D, the embedment of the tip over the diameter; here
 D is the outer one. SI units; unit weights are effective ones.
 """
 from math import atan, exp, pi
@@ -39,14 +35,3 @@ def senders_randolph(unit_weight: float, h: float, diameter: float) -> float:
     """Return the critical suction (Pa)."""
     angle = atan(5 * (h / diameter) ** 0.85)
     return unit_weight * h * (pi - angle * (2 - 2 / pi))
-
-
-def ibsen_thilsted(unit_weight: float, h: float, diameter: float) -> float:
-    """Return the critical suction (Pa)."""
-    angle = atan(4.1 * (h / diameter) ** 0.85)
-    return unit_weight * h * (2.86 - angle * pi / 2.62)
-
-
-def feld(unit_weight: float, h: float, diameter: float) -> float:
-    """Return the critical suction (Pa)."""
-    return unit_weight * diameter * 1.32 * (h / diameter) ** 0.75

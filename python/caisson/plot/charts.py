@@ -48,8 +48,6 @@ COLOR_OF |= {m.name: m.color for m in suction_methods.BY_CONE}
 CRITICAL = {
     suction_methods.PIPING: ("Houlsby & Byrne (2005)", "#b35806"),
     suction_methods.CRITICAL_SENDERS_RANDOLPH: ("Senders & Randolph (2009)", "#e08214"),
-    suction_methods.CRITICAL_IBSEN_THILSTED: ("Ibsen & Thilsted (2011)", "#8c6d31"),
-    suction_methods.CRITICAL_FELD: ("Feld (2001)", "#bd9e39"),
 }
 ALLOWABLE, WIDE_COLOR = "allowable, the least of the limits", "#f4b6b6"
 LOW_TO_HIGH = "low to high resistance"

@@ -340,6 +340,8 @@ def overview(run: Results, found: Installation, planned: float) -> dict[str, Any
         mark = "" if not run.by_hand or answer.method in counted else NOT_IN_MEAN
         rests = suction_methods.rests_of(answer.method, site, depth).values()
         cases = needs.get(answer.name, {}).values()
+        if answer.beside:
+            cases = suction_methods.needed_by(site, answer).values()
         rows.append(cells(name + mark, [*rests][::-1], answer.band("total"), cases))
     if not rows or (here := installation_of(run, Rate(), at)) is None:
         return {}

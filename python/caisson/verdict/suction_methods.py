@@ -24,7 +24,6 @@ from caisson.design.clay import Layer
 from caisson.design.cone import ConeMethod, Skirt
 from caisson.design.houlsby_byrne import UNDISTURBED, HoulsbyByrne
 from caisson.design.method import Forces, Method
-from caisson.design.seepage import feld, ibsen_thilsted
 
 Of = TypeVar("Of")
 WEIGHT = "submerged_weight_N"  # of run.json
@@ -35,9 +34,7 @@ RANGE = (LOW, HIGH)
 CASES = dict(zip((*RANGE, LOWER_BOUND), (*HoulsbyByrne.cases, UNDISTURBED)))
 BY_CONE = [method for method in theory.METHODS if method.has_suction]
 ENDS = ("low", "high")
-CRITICAL_FELD = "critical_feld_Pa"
 CRITICAL_SENDERS_RANDOLPH = "critical_senders_randolph_Pa"
-CRITICAL_IBSEN_THILSTED = "critical_ibsen_thilsted_Pa"
 PIPING = "critical_houlsby_byrne_Pa"
 CONE_COLUMNS = {
     method.key: tuple(f"{method.key}_cone_{end}_Pa" for end in ENDS)
@@ -46,9 +43,7 @@ CONE_COLUMNS = {
 METHODS = (
     *CASES,
     *(column for columns in CONE_COLUMNS.values() for column in columns),
-    CRITICAL_FELD,
     CRITICAL_SENDERS_RANDOLPH,
-    CRITICAL_IBSEN_THILSTED,
     PIPING,
 )
 
@@ -128,7 +123,6 @@ def suctions_at(
     that apply; unsteady: as of a Site."""
     ratio = byrne.permeability_ratio
     caisson = byrne.by_name[UNDISTURBED]
-    mean, diameter = installation.mean_unit_weight(caisson, h), caisson.outer_diameter
     critical = installation.critical_suction(caisson, h)
     counted = critical / (1 - unsteady) if unsteady < 1 else inf
     loads = weight, installation.plug_area(caisson), counted
@@ -139,9 +133,7 @@ def suctions_at(
             forces = method.forces(h, case)
             required[column] = installation.relieved_suction(forces, *loads)
     return required | {
-        CRITICAL_FELD: feld(mean, h, diameter),
         CRITICAL_SENDERS_RANDOLPH: critical,
-        CRITICAL_IBSEN_THILSTED: ibsen_thilsted(mean, h, diameter),
         PIPING: installation.piping_suction(caisson, h, ratio),
     }
 
@@ -245,18 +237,25 @@ def needed_beside_clay(
     return found
 
 
-def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
-    """Return what the method of clay says at embedments [n]. why_not: of the others."""
-    answer = theory.answer_of(theory.OF_CLAY, site, depth)
-    critical, _ = flow_above_clay(site, depth)
+def needed_by(site: theory.Site, answer: theory.Answer) -> dict[str, np.ndarray]:
+    """Return the required suctions [n] (Pa) of a method in ground with clay, by its
+    cases; none of one without an answer, or without a weight."""
     if not answer.forces or site.scene.get(WEIGHT) is None:
-        return Answers(depth, why_not=why_not)
+        return {}
+    critical, _ = flow_above_clay(site, answer.depth)
     weight = weight_of(site.scene)
     area = pi / 4 * theory.skirt_of(site).inner_diameter ** 2
-    needed = {
+    return {
         case: needed_beside_clay(answer.forces[case], weight, area, critical)
         for case in answer.total.cases
     }
+
+
+def in_clay(site: theory.Site, depth: np.ndarray, why_not: str) -> Answers:
+    """Return what the method of clay says at embedments [n]. why_not: of the others."""
+    answer = theory.answer_of(theory.OF_CLAY, site, depth)
+    if not (needed := needed_by(site, answer)):
+        return Answers(depth, why_not=why_not)
     rests = rests_of(theory.OF_CLAY, site, float(depth.max()))
     return Answers(
         depth,
