@@ -305,6 +305,14 @@ class Vessel(unittest.TestCase):
                 cells = {row["forecast_kPa"] for row in csv.DictReader(file)}
             self.assertEqual(cells, {""})
 
+    def test_refused_where_suction_begins(self) -> None:
+        """A caisson that rests by its weight, and that suction does not move."""
+        self.write_runs(boiling=1e6)
+        depth = np.append(np.arange(1.0, 2.6, 0.01), np.full(60, 2.6))
+        suction = np.append(np.zeros(160), np.linspace(0, 40, 60))
+        self.write_rows("depth_m,suction_kPa", depth, suction)
+        self.assertTrue(self.said().startswith("No forecast: the log ends at 2.6 m"))
+
     def test_last_readings(self) -> None:
         """A single reading above the allowable suction at the end of a log ends the
         forecast."""

@@ -120,8 +120,10 @@ def answer_of(directory: Path, measured: Path) -> Answer:
     from caisson.vessel_log.steps import bins_of, weight_of
 
     log, expected = read(measured), expected_of(Results(directory))
-    bins, found = bins_of(measured, log, expected), None
-    if not words.no_forecast(expected, log):
+    # one step shows a refusal where suction begins
+    is_refused, found = bool(words.no_forecast(expected, log)), None
+    bins = bins_of(measured, log, expected, *([1] if is_refused else []))
+    if not is_refused:
         found = forecast.forecast_of(expected, bins, weight_of(log, expected))
     fit = forecast.fit_of(expected, bins)
     said = words.said(expected, log, bins, fit, found)

@@ -108,8 +108,8 @@ def largest_in_a_row(values: np.ndarray) -> float:
     return float(np.median(windows, axis=1).max())
 
 
-def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
-    """Return the log in steps of depth. Raises InputError where too little is left, or
+def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> Bins:
+    """Return the log in steps of depth. Raises InputError where fewer are left, or
     where the log cannot be of the caisson of the run."""
     depth, force = progress_of(log), resistance_of(log, expected)
     refuse_depth(path, depth, expected)
@@ -136,7 +136,7 @@ def bins_of(path: Path, log: Log, expected: Expected) -> Bins:
         error = error if len(logs) > 2 else 2 * LEAST_NOISE
         place = min(float(np.mean(depth[rows])), float(expected.depth[-1]))
         found.append((place, force_of_step, error, float(np.median(weight[rows]))))
-    if len(found) < FEWEST:
+    if len(found) < fewest:
         raise InputError(
             f"{path}: too few rows with suction lie between {expected.depth[0]:.3g} and"
             f" {expected.depth[-1]:.3g} m, where the runs are, for a fit (the log goes"
