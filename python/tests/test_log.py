@@ -313,6 +313,37 @@ class Vessel(unittest.TestCase):
         self.write_rows("depth_m,suction_kPa", depth, suction)
         self.assertTrue(self.said().startswith("No forecast: the log ends at 2.6 m"))
 
+    def test_refusal_that_is_overcome(self) -> None:
+        """It is named, and the log is not within the band there; a log of little more
+        than a refusal has one, too."""
+        self.write_runs()
+        depth = np.insert(np.arange(2.8, 6.0, 0.01), 120, np.full(60, 4.0))
+        usual = np.maximum(np.interp(depth, DEPTH, BEST) - WEIGHT, 0) / AREA / 1e3
+        usual[120:180] *= np.linspace(1, 3, 60)
+        self.write_rows("depth_m,suction_kPa", depth, usual)
+        said = self.said()
+        self.assertIn("rested under growing suction at 4 m", said)
+        self.assertRegex(said, r"is from (3\.9|4) m to (4|4\.1) m above the high")
+        self.assertTrue(said.startswith("Forecast"))
+        self.write_rows("depth_m,suction_kPa", depth[105:180], usual[105:180])
+        self.assertTrue(self.said().startswith("No forecast: the log ends at 4"))
+
+    def test_weight_in_some_rows(self) -> None:
+        """The last weight that is written counts until the next one."""
+        self.write_runs()
+        depth = np.arange(2.8, 6.0, 0.01)
+        weight = np.where(depth > 4, 2000.0, 1500.0)
+        suction = (np.interp(depth, DEPTH, BEST) / 1e3 - weight) / AREA
+        head = "depth_m,suction_kPa,weight_kN"
+        self.write_rows(head, depth, suction, weight)
+        said = self.said()
+        lines = self.file.read_text(encoding="utf-8").splitlines()
+        for i in range(len(lines)):
+            if i and i % 10 != 1:
+                lines[i] = lines[i].rpartition(",")[0] + ","
+        self.file.write_text("\n".join(lines), encoding="utf-8")
+        self.assertEqual(self.said().splitlines()[1:3], said.splitlines()[1:3])
+
     def test_last_readings(self) -> None:
         """A single reading above the allowable suction at the end of a log ends the
         forecast."""

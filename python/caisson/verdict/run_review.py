@@ -43,7 +43,7 @@ AT_PENETRATION = re.compile(r"at a penetration of ([\d.]+) m")  # in a warning
 USUAL_RATE, P_WAVE = 1.0 / 3600, 1.35
 FEWEST_WALLS = 3  # thicknesses of the wall, over which forces build up
 LEAST_ABOVE = 0.1  # m, of a lid above the sea
-FASTER = 10.0  # times c_v, by which ground drains what it lies above or below
+FASTER = 100.0  # times c_v, by which ground drains what it lies above or below
 UNSTEADY = 0.1  # v D / c_v, below which flow counts as steady
 LEAST_WORK_OF_PULL = 0.1  # of the largest work, in rows of a pull that count
 

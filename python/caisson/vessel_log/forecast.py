@@ -35,14 +35,16 @@ LEAST_NOISE = 0.02  # of the resistance of a step: gauges are not better
 
 class Bins(NamedTuple):
     """A log in steps of depth, [n] each: depth (m), resistance (kN) and its error as a
-    share of it; the weight on the soil (kN); and how many steps are left out, as the
-    pump rested."""
+    share of it; the weight on the soil (kN); how many steps are left out, as the pump
+    rested; and the depths (m) of those where the caisson rested under more than above.
+    """
 
     depth: np.ndarray
     resistance: np.ndarray
     error: np.ndarray
     weight: np.ndarray
     rests: int = 0
+    held: tuple[float, ...] = ()
 
 
 class Fit(NamedTuple):

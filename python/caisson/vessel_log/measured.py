@@ -252,6 +252,15 @@ def times_of(table: np.ndarray, remarks: list[str]) -> np.ndarray:
     return np.interp(np.arange(len(time)), known, time[known])
 
 
+def carried_on(values: np.ndarray) -> np.ndarray:
+    """Return values [n] where an empty cell has the last one before it; nan before the
+    first."""
+    rows = np.maximum.accumulate(
+        np.where(np.isfinite(values), np.arange(len(values)), -1)
+    )
+    return np.where(rows < 0, np.nan, values[rows])
+
+
 def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
     """Return the rows [n, quantities] in the order of time, without those that are
     repeated and without spikes; without times in their own order. Where the tip goes up
@@ -277,6 +286,7 @@ def ordered(path: Path, table: np.ndarray, remarks: list[str]) -> Log:
         once = once[np.argsort(once[:, 1], kind="stable")]
     columns = without_spikes(dict(zip(QUANTITIES, once.T)), remarks)
     columns["flow"] = np.abs(columns["flow"])
+    columns["weight"] = carried_on(columns["weight"])
     suction = columns["suction"][np.isfinite(columns["suction"])]
     if len(suction) and np.median(suction) < 0:
         raise InputError(

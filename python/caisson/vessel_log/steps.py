@@ -118,7 +118,7 @@ def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> B
     inside = np.isfinite(force) & (depth >= expected.depth[0])
     inside &= ~below_runs(log, expected)
     clock, usual = clock_of(log, width)
-    found, rests = list[tuple[float, float, float, float]](), 0
+    found, rests, held = list[tuple[float, float, float, float]](), 0, list[float]()
     weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
     for k in np.unique(number[inside]):
         rows = inside & (number == k)
@@ -135,6 +135,8 @@ def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> B
         error = max(LEAST_NOISE, 0.0 if is_clear else scatter)
         error = error if len(logs) > 2 else 2 * LEAST_NOISE
         place = min(float(np.mean(depth[rows])), float(expected.depth[-1]))
+        if above and is_long and force_of_step > HELD * np.median(above):
+            held.append(place)
         found.append((place, force_of_step, error, float(np.median(weight[rows]))))
     if len(found) < fewest:
         raise InputError(
@@ -143,7 +145,7 @@ def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> B
             f" to {depth.max():.3g} m); it takes {FEWEST} steps of {width:.2g} m"
         )
     depths, forces, errors, weights = np.array(found).T
-    bins = Bins(depths, forces, errors, weights, rests)
+    bins = Bins(depths, forces, errors, weights, rests, tuple(held))
     refuse_force(path, log, bins, expected)
     return bins
 
@@ -162,7 +164,10 @@ def held_by(log: Log, expected: Expected) -> tuple[float, float] | None:
     last, (clock, usual) = float(depth[-1]), clock_of(log, width)
     end = depth > last - width
     is_down = last > expected.planned - width
-    if is_down or not np.ptp(clock[end]) > LONG * usual:
+    is_long = np.ptp(clock[end]) > LONG * usual
+    if np.isnan(usual):  # a short log
+        is_long = 2 * np.ptp(clock[end]) > np.ptp(clock)
+    if is_down or not is_long:
         return None
     force, suction = resistance_of(log, expected), suction_of(log, expected)
     if not np.isfinite(suction[end]).any():

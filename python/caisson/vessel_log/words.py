@@ -70,8 +70,9 @@ def outside(expected: Expected, bins: Bins) -> list[tuple[str, float, float]]:
     found = []
     for side, rows in groupby(range(len(where)), lambda i: int(where[i])):
         depth = bins.depth[list(rows)]
-        is_last = side > 0 and depth[-1] == bins.depth[-1]
-        if side and (is_last or len(depth) >= FEWEST):
+        is_last = depth[-1] == bins.depth[-1]
+        is_clear = side > 0 and (is_last or bool(set(depth) & set(bins.held)))
+        if side and (is_clear or len(depth) >= FEWEST):
             name = "above the high" if side > 0 else "below the low"
             found.append((name, float(depth[0]), float(depth[-1])))
     return found
@@ -165,7 +166,7 @@ def of_readings(log: Log, expected: Expected, bins: Bins) -> list[str]:
     hanging = int(hangs(log, expected).sum()), least_suction(log, expected)
     differs = disagreement(log, expected)
     no_force = ~np.isfinite(resistance_of(log, expected)) & ~hangs(log, expected)
-    what = above, below, hanging, int(no_force.sum()), bins.rests, differs
+    what = above, below, hanging, int(no_force.sum()), bins.rests, bins.held, differs
     found = say_rows(SENTENCES, "readings", expected.run.shown, *what)
     remarks = [f"{text[0].upper()}{text[1:]}." for text in log.remarks]
     return remarks + [text for _, text in found]
