@@ -165,9 +165,8 @@ def known_layers_of(site: theory.Site, deepest: float) -> list[Layer]:
         theory.soils_of(site, deepest)
         below = sorted(filter(deepest.__lt__, tops), reverse=True)
         for end in [np.inf, *below, deepest]:
-            with suppress(
-                theory.NotApplicable
-            ):  # far below the tip they may be unknown
+            # far below the tip they may be unknown
+            with suppress(theory.NotApplicable):
                 return theory.clay_layers_of(site, end)
     return []
 

@@ -55,9 +55,7 @@ class Site(NamedTuple):
     level: str = "drained"  # Water/Level
     cone: Profile | None = None  # a cone test, if the user has given one
     is_running: bool = False  # and has left no run.json yet
-    unsteady: float = (
-        0.0  # share of what steady flow takes from forces, that it does not
-    )
+    unsteady: float = 0.0  # share of its relief that flow does not give
 
     def layers(self, deepest: float) -> list[tuple[int, Scene]]:
         """Return the layers that begin above a depth (m), with their numbers; a

@@ -117,16 +117,17 @@ def answer_of(directory: Path, measured: Path) -> Answer:
     from caisson.vessel_log import forecast, words
     from caisson.vessel_log.expected import expected_of
     from caisson.vessel_log.measured import read
-    from caisson.vessel_log.steps import bins_of, weight_of
+    from caisson.vessel_log.steps import FEWEST, bins_of, weight_of
 
     log, expected = read(measured), expected_of(Results(directory))
+    found, ahead = None, words.no_forecast(expected, log)
     # one step shows a refusal where suction begins
-    is_refused, found = bool(words.no_forecast(expected, log)), None
-    bins = bins_of(measured, log, expected, *([1] if is_refused else []))
-    if not is_refused:
+    bins = bins_of(measured, log, expected, 1 if ahead else FEWEST)
+    if not ahead:
         found = forecast.forecast_of(expected, bins, weight_of(log, expected))
+        ahead = words.of_forecast(expected, found)
     fit = forecast.fit_of(expected, bins)
-    said = words.said(expected, log, bins, fit, found)
+    said = [ahead, *words.said(expected, log, bins, fit)]
     return Answer(expected, log, bins, found, said)
 
 

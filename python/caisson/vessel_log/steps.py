@@ -48,6 +48,12 @@ def weight_of(log: Log, expected: Expected) -> float:
     return float(known[-1] if is_pumped(log) else max(known[-1], expected.weight))
 
 
+def weights_of(log: Log, expected: Expected) -> np.ndarray:
+    """Return the weight in water (kN) of each row [n], that of the scene where none is
+    measured."""
+    return np.where(np.isfinite(log.weight), log.weight, expected.weight)
+
+
 def is_pumped(log: Log) -> bool:
     """Return whether a log has any suction."""
     return bool(np.nanmax(log.suction, initial=0.0) > NOTHING)
@@ -75,8 +81,7 @@ def resistance_of(log: Log, expected: Expected) -> np.ndarray:
     """Return the resistance (kN) of each row [n]: that measured, or suction on the area
     inside and the weight, that of the scene where none is measured; nan where the
     weight alone may hang on a crane."""
-    weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
-    found = log.suction * expected.area + weight
+    found = log.suction * expected.area + weights_of(log, expected)
     found = np.where(hangs(log, expected), np.nan, found)
     found = np.where(np.isfinite(log.resistance), log.resistance, found)
     return np.where(found > 0, found, np.nan)
@@ -119,7 +124,7 @@ def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> B
     inside &= ~below_runs(log, expected)
     clock, usual = clock_of(log, width)
     found, rests, held = list[tuple[float, float, float, float]](), 0, list[float]()
-    weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
+    weight = weights_of(log, expected)
     for k in np.unique(number[inside]):
         rows = inside & (number == k)
         logs = np.log(force[rows])
@@ -142,7 +147,7 @@ def bins_of(path: Path, log: Log, expected: Expected, fewest: int = FEWEST) -> B
         raise InputError(
             f"{path}: too few rows with suction lie between {expected.depth[0]:.3g} and"
             f" {expected.depth[-1]:.3g} m, where the runs are, for a fit (the log goes"
-            f" to {depth.max():.3g} m); it takes {FEWEST} steps of {width:.2g} m"
+            f" to {depth.max():.3g} m); it takes {fewest} steps of {width:.2g} m"
         )
     depths, forces, errors, weights = np.array(found).T
     bins = Bins(depths, forces, errors, weights, rests, tuple(held))
@@ -239,8 +244,8 @@ def refuse_force(path: Path, log: Log, bins: Bins, expected: Expected) -> None:
 def disagreement(log: Log, expected: Expected) -> float:
     """Return how far a measured resistance is from suction and weight, as a share of
     the latter; 0 where a log does not have both, or where they agree."""
-    weight = np.where(np.isfinite(log.weight), log.weight, expected.weight)
-    ratio = log.resistance / (log.suction * expected.area + weight)
+    driving = log.suction * expected.area + weights_of(log, expected)
+    ratio = log.resistance / driving
     ratio = ratio[np.isfinite(ratio) & (log.suction > 0)]
     share = float(np.median(ratio)) - 1 if len(ratio) else 0.0
     return share if abs(share) > AGREE else 0.0

@@ -192,13 +192,9 @@ def of_gauges(log: Log, expected: Expected) -> list[str]:
     return [text for _, text in found]
 
 
-def said(
-    expected: Expected, log: Log, bins: Bins, fit: Fit, forecast: Forecast | None
-) -> list[str]:
-    """Return the sentences, that of the forecast first, or why there is none."""
-    ahead = of_forecast(expected, forecast) if forecast else no_forecast(expected, log)
+def said(expected: Expected, log: Log, bins: Bins, fit: Fit) -> list[str]:
+    """Return the sentences behind that of the forecast."""
     lines = (
-        ahead,
         of_allowable(expected, log),
         of_band(expected, bins),
         say(SENTENCES, "fit", fit),
