@@ -33,11 +33,14 @@ def part_of(run: Results) -> installation.Installation | None:
     return outcome.feasible_part(run, found, outcome.depth_of(run))
 
 
-def page_of(run: Results, common: float) -> Words:
-    """Return what the page of a run says first: its verdict, its cards, and the limits
-    of the suction at a depth (m) that other runs have, too."""
+def page_of(
+    run: Results, part: installation.Installation | None, common: float
+) -> Words:
+    """Return what the page of a run says first: its verdict, the cards of its part down
+    to where suction ends, and the limits of the suction at a depth (m) that other runs
+    have, too."""
     said = {"verdict": f"{verdict.verdict_of(run).text} {sentence_of(run)}".strip()}
-    if (part := part_of(run)) is not None:
+    if part is not None:
         for name, *words in cards_of(run, verdict.cards_of(run, part, Rate())):
             said[name] = ", ".join(filter(None, words))
         here = installation.installation_of(run, Rate(), np.array([common])) or part
@@ -65,9 +68,10 @@ def differences(runs: list[Results]) -> Iterator[str]:
         yield "of each pair, the upper is {}, the lower {}".format(*names)
         scenes = (scene.with_units(run, trace.entries_of(run)) for run in runs)
         yield from changes("scene", *scenes)
-        parts = [part for part in map(part_of, runs) if part and len(part.depth)]
-        common = min((float(part.depth[-1]) for part in parts), default=0.0)
-        pages = (page_of(run, common) for run in runs)
+        parts = [*map(part_of, runs)]
+        ends = (float(part.depth[-1]) for part in parts if part and len(part.depth))
+        common = min(ends, default=0.0)
+        pages = (page_of(*pair, common) for pair in zip(runs, parts))
         yield from changes("verdict, cards and limits", *pages)
 
 
